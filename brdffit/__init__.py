@@ -1,0 +1,47 @@
+"""brdffit: differentiable BRDF models, fitted to reflectance in JAX.
+
+The package reads from top to bottom; a module imports only from lines above its own:
+
+    types, numerics        shapes; functions with finite gradients
+    geometry, parameters   directions; bounds, units and symbols
+    microfacet             Fresnel, ndf, masking-shadowing
+    models                 one BRDF per file
+    albedo                 integrals of a BRDF
+    samples, images        weighted directions with values; linear images
+    scene                  camera, shapes, lights
+    render                 geometry pass, shading, images
+    readers, writers       one file format per file
+    fit                    residual -> solver -> result
+    plots                  one figure per file
+    cli                    the command line
+
+Names are loaded when first used, so that ``import brdffit`` costs nothing.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from brdffit.albedo import directional_albedo as directional_albedo
+    from brdffit.models import MODELS as MODELS, AbstractBRDF as AbstractBRDF
+    from brdffit.samples import Measurement as Measurement, Samples as Samples
+
+_HOME = {
+    "MODELS": "models",
+    "AbstractBRDF": "models",
+    "Measurement": "samples",
+    "Samples": "samples",
+    "directional_albedo": "albedo",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name from the module that defines it."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'brdffit' has no attribute {name!r}")
+    return getattr(importlib.import_module(f"brdffit.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """Public names, so that completion finds them before they are loaded."""
+    return sorted(_HOME)

@@ -1,0 +1,77 @@
+"""Directions in the local shading frame.
+
+Conventions, stated here and nowhere else:
+
+- the normal is ``n = (0, 0, 1)``, the tangent ``(1, 0, 0)``;
+- ``wi`` points to the light, ``wo`` to the viewer; both leave the surface;
+- ``wh`` is the half vector between them;
+- ``f_r`` is in 1/sr and never contains the cosine of the incident angle; it is 0 when
+  either direction lies at or below the horizon;
+- angles are in radians; directions are unit vectors.
+"""
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from brdffit import numerics
+from brdffit.types import Direction, Scalar
+
+
+def cos_theta(w: Direction) -> Scalar:
+    """Cosine of the angle between ``w`` and the normal."""
+    return w[2]
+
+
+def dot(a: Direction, b: Direction) -> Scalar:
+    """Cosine of the angle between two directions, by components."""
+    (ax, ay, az), (bx, by, bz) = a, b
+    return ax * bx + ay * by + az * bz
+
+
+def bisector(wi: Direction, wo: Direction) -> Direction:
+    """``wi + wo``, the half vector before it is normalised.
+
+    Its slopes ``x/z``, ``y/z`` are those of the half vector, and exact near the mirror
+    direction, where the normalised vector has lost them to rounding.
+    """
+    return wi + wo
+
+
+def half_vector(wi: Direction, wo: Direction) -> Direction:
+    """Unit vector half-way between ``wi`` and ``wo``."""
+    return numerics.normalize(wi + wo)
+
+
+def direction(theta: Scalar, phi: Scalar) -> Direction:
+    """Unit vector with polar angle ``theta`` and azimuth ``phi``, in radians."""
+    sin_theta = jnp.sin(theta)
+    return jnp.stack(
+        [sin_theta * jnp.cos(phi), sin_theta * jnp.sin(phi), jnp.cos(theta)]
+    )
+
+
+def mirror(w: Direction) -> Direction:
+    """Mirror image of ``w`` about the normal."""
+    x, y, z = w
+    return jnp.stack([-x, -y, z])
+
+
+def rotate_to(axis: Direction, w: Direction) -> Direction:
+    """Turn ``w`` by the shortest rotation that takes the normal to ``axis``.
+
+    ``axis`` must not be the negative normal.
+    """
+    x, y, z = axis
+    shear = 1 / (1 + z)
+    u = jnp.stack([1 - x * x * shear, -x * y * shear, -x])
+    v = jnp.stack([-x * y * shear, 1 - y * y * shear, -y])
+    return w[0] * u + w[1] * v + w[2] * axis
+
+
+def shading_frame(normal: Direction, tangent: Direction) -> Float[Array, "3 3"]:
+    """Rows tangent, bitangent, normal: ``frame @ w`` is ``w`` in the local frame.
+
+    ``tangent`` need not be perpendicular to ``normal``, only not parallel to it.
+    """
+    bitangent = numerics.normalize(jnp.cross(normal, tangent))
+    return jnp.stack([jnp.cross(bitangent, normal), bitangent, normal])

@@ -1,0 +1,25 @@
+"""Normal distribution functions ``D``, in 1/sr, of a bisector of any length.
+
+Only the slopes of ``wh`` and its direction matter, so the unnormalised ``wi + wo``
+serves: it is exact near the mirror direction.
+"""
+
+import jax.numpy as jnp
+
+from brdffit.types import Direction, Scalar
+
+
+def ggx(wh: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
+    r"""GGX (Trowbridge-Reitz).
+
+    $$D = \frac{1}{\pi\,\alpha_x\alpha_y\,\bigl((h_x/\alpha_x)^2 + (h_y/\alpha_y)^2
+          + h_z^2\bigr)^2}$$
+
+    Source:
+        B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
+        EGSR 2007, eq. 33.
+    """
+    x, y, z = wh
+    u, v = x / alpha_x, y / alpha_y
+    q = (x * x + y * y + z * z) / (u * u + v * v + z * z)
+    return q * q / (jnp.pi * alpha_x * alpha_y)

@@ -1,0 +1,65 @@
+"""The interface every reflectance model implements."""
+
+import abc
+from typing import ClassVar
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from brdffit.geometry import cos_theta
+from brdffit.parameters import as_float, parameters, registry_name
+from brdffit.types import Direction, Spectrum
+
+RGB = 3
+
+
+class AbstractBRDF(eqx.Module):
+    """A BRDF ``f_r(wi, wo)`` in 1/sr, *without* the cosine of the incident angle.
+
+    A model is a frozen pytree of its parameters. Subclasses are final and implement
+    `evaluate` only; callers write ``brdf(wi, wo)``. Spectral parameters given as plain
+    numbers take the channels of the others, and three (RGB) when no other has any.
+
+    Raises:
+        ValueError: Spectral parameters with different numbers of channels, or a list
+            for a parameter that has one value in all.
+    """
+
+    reciprocal: ClassVar[bool]
+    energy_conserving: ClassVar[bool]
+
+    def __post_init__(self) -> None:
+        """Give all spectral parameters the same number of channels."""
+        own = {n: p for n, p in parameters(type(self)).items() if "." not in n}
+        arrays = {name: as_float(getattr(self, name)) for name in own}
+        for name, known in own.items():
+            if arrays[name].ndim > known.spectral:
+                raise ValueError(
+                    f"Parameter `{name}` of `{registry_name(self)}` must be "
+                    f"{'a list of numbers' if known.spectral else 'one number'}, "
+                    f"but has shape {arrays[name].shape}."
+                )
+        sized = {n: a.shape for n, a in arrays.items() if own[n].spectral and a.ndim}
+        if len(set(sized.values())) > 1:
+            raise ValueError(
+                f"Spectral parameters of `{registry_name(self)}` must have the same "
+                "number of channels, but have "
+                f"{', '.join(f'{name} {shape[0]}' for name, shape in sized.items())}."
+            )
+        channels = next(iter(sized.values()), (RGB,))
+        for name, array in arrays.items():
+            shape = channels if own[name].spectral else ()
+            setattr(self, name, jnp.broadcast_to(array, shape))
+
+    @abc.abstractmethod
+    def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
+        """Return ``f_r`` for one pair of directions above the horizon."""
+
+    def __call__(self, wi: Direction, wo: Direction) -> Spectrum:
+        """Return ``f_r``, and 0 when either direction is at or below the horizon."""
+        visible = (cos_theta(wi) > 0) & (cos_theta(wo) > 0)
+        value = self.evaluate(
+            jnp.where(visible, wi, jnp.array([0.6, 0.0, 0.8], wi.dtype)),
+            jnp.where(visible, wo, jnp.array([0.0, 0.6, 0.8], wo.dtype)),
+        )
+        return jnp.where(visible, value, 0.0)

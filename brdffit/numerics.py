@@ -1,0 +1,72 @@
+"""Elementary functions whose values *and* gradients are finite everywhere.
+
+The only module that may call ``jnp.sqrt``, ``jnp.arccos``, ``jnp.power`` or
+``jnp.linalg.norm`` (``tests/test_architecture.py`` checks this). Each function
+replaces the argument before the singular operation, because ``jnp.where`` after it
+would still multiply an infinite derivative by zero and return NaN.
+"""
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+Real = Float[Array, "..."]
+
+
+def sqrt(x: Real) -> Real:
+    """``sqrt(max(x, 0))``; the derivative is 0 for ``x <= 0``."""
+    positive = x > 0
+    return jnp.where(positive, jnp.sqrt(jnp.where(positive, x, 1.0)), 0.0)
+
+
+def arccos(x: Real) -> Real:
+    """``arccos(clip(x, -1, 1))``; the derivative is 0 for ``|x| >= 1``."""
+    inside = jnp.abs(x) < 1
+    edge = jnp.where(x > 0, 0.0, jnp.pi)
+    return jnp.where(inside, jnp.arccos(jnp.where(inside, x, 0.0)), edge)
+
+
+def arctan2(y: Real, x: Real) -> Real:
+    """``arctan2(y, x)``, and 0 with derivative 0 at the origin."""
+    origin = (x == 0) & (y == 0)
+    return jnp.where(origin, 0.0, jnp.arctan2(y, jnp.where(origin, 1.0, x)))
+
+
+def divide(x: Real, y: Real) -> Real:
+    """``x / y``, and 0 where ``y == 0``."""
+    nonzero = y != 0
+    return jnp.where(nonzero, x / jnp.where(nonzero, y, 1.0), 0.0)
+
+
+def log(x: Real) -> Real:
+    """``log(x)``, and a large negative number with derivative 0 where ``x <= 0``."""
+    smallest = jnp.finfo(x.dtype).tiny
+    positive = x > smallest
+    return jnp.where(positive, jnp.log(jnp.where(positive, x, 1.0)), jnp.log(smallest))
+
+
+def pow(x: Real, exponent: Real) -> Real:
+    """``x**exponent`` for ``x >= 0``, and 0 where ``x <= 0`` (also for exponent 0)."""
+    positive = x > 0
+    power = jnp.exp(exponent * jnp.log(jnp.where(positive, x, 1.0)))
+    return jnp.where(positive, power, 0.0)
+
+
+def cbrt(x: Real) -> Real:
+    """Cube root of ``x >= 0``; 0 with derivative 0 where ``x <= 0``."""
+    positive = x > 0
+    return jnp.where(positive, jnp.cbrt(jnp.where(positive, x, 1.0)), 0.0)
+
+
+def norm_of(*components: Real) -> Real:
+    """``sqrt`` of the sum of squares; the derivative is 0 where all are zero."""
+    return sqrt(sum(component * component for component in components))
+
+
+def norm(v: Float[Array, " n"]) -> Float[Array, ""]:
+    """Length of ``v``; the derivative is 0 for the zero vector."""
+    return sqrt(jnp.sum(v * v))
+
+
+def normalize(v: Float[Array, " n"]) -> Float[Array, " n"]:
+    """``v / |v|``, and the zero vector for ``v == 0``."""
+    return divide(v, norm(v) * jnp.ones_like(v))

@@ -1,0 +1,120 @@
+"""What is known about a model parameter: range, typical range, unit, symbol, role.
+
+A model declares each parameter once, as a field; bounds for the solver, starts, labels
+of plots, columns of tables and options of the command line are all read from here.
+"""
+
+import dataclasses
+from collections.abc import Mapping
+from operator import attrgetter
+from typing import Any, TypeVar
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array
+
+Model = TypeVar("Model", bound=eqx.Module)
+
+
+@dataclasses.dataclass(frozen=True)
+class Parameter:
+    """A closed interval of legal values, with what a fit needs to know about it.
+
+    Attributes:
+        lower: Smallest legal value.
+        upper: Largest legal value.
+        typical: Interval of everyday values, where starts and random truths are drawn.
+        unit: Unit, ``"1"`` when dimensionless.
+        symbol: LaTeX symbol in the formula of the model.
+        spectral: True for one value per channel, False for one value in all.
+        linear: True when ``f_r`` is jointly affine in this and all other linear
+            parameters.
+        logarithmic: True when a solver should move in the logarithm of the value.
+    """
+
+    lower: float
+    upper: float
+    typical: tuple[float, float]
+    unit: str
+    symbol: str
+    spectral: bool
+    linear: bool
+    logarithmic: bool
+
+    def __str__(self) -> str:
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        return f"[{self.lower:g}, {self.upper:g}]{unit}"
+
+
+def parameter(
+    default: float,
+    *,
+    bounds: tuple[float, float],
+    typical: tuple[float, float],
+    symbol: str,
+    unit: str = "1",
+    spectral: bool = False,
+    linear: bool = False,
+    logarithmic: bool = False,
+) -> Any:
+    """Declare a model field that can be fitted; see `Parameter` for the meaning."""
+    return eqx.field(
+        default=default,
+        metadata={
+            "parameter": Parameter(
+                *bounds, typical, unit, symbol, spectral, linear, logarithmic
+            )
+        },
+    )
+
+
+def as_float(value: Any) -> Array:
+    """``value`` as an array of floats; the precision of a float array is kept."""
+    dtype = jnp.result_type(jnp.asarray(value))
+    return jnp.asarray(value, dtype if jnp.issubdtype(dtype, jnp.floating) else float)
+
+
+def parameters(model: eqx.Module | type[eqx.Module]) -> dict[str, Parameter]:
+    """Parameters of a model by dotted name, parts of a composite included."""
+    found = {}
+    for field in dataclasses.fields(model):
+        if "parameter" in field.metadata:
+            found[field.name] = field.metadata["parameter"]
+        elif isinstance(part := getattr(model, field.name, None), eqx.Module):
+            for name, known in parameters(part).items():
+                found[f"{field.name}.{name}"] = known
+    return found
+
+
+def values(model: eqx.Module) -> dict[str, Array]:
+    """Current value of each parameter, by dotted name."""
+    return {name: attrgetter(name)(model) for name in parameters(model)}
+
+
+def replace(model: Model, new: Mapping[str, Any]) -> Model:
+    """Copy of a model with the named parameters changed; no check is made."""
+    return eqx.tree_at(
+        lambda m: [attrgetter(name)(m) for name in new], model, list(new.values())
+    )
+
+
+def check(model: eqx.Module) -> None:
+    """Raise `ValueError` if a parameter is not finite or lies outside its interval."""
+    known = parameters(model)
+    for name, array in values(model).items():
+        value = np.asarray(array)
+        # float32 has rounded the bound as well as the value
+        lower, upper = value.dtype.type(known[name].lower), known[name].upper
+        if not np.all((value >= lower) & (value <= value.dtype.type(upper))):
+            shown = ", ".join(f"{v:g}" for v in np.atleast_1d(value))
+            raise ValueError(
+                f"Parameter `{name}` of `{registry_name(model)}` must lie in "
+                f"{known[name]}, but is {shown}."
+            )
+
+
+def registry_name(model: eqx.Module | type[eqx.Module]) -> str:
+    """Name of a model everywhere: that of its file."""
+    kind = model if isinstance(model, type) else type(model)
+    return kind.__module__.rpartition(".")[2]
