@@ -37,6 +37,13 @@ def bisector(wi: Direction, wo: Direction) -> Direction:
     return wi + wo
 
 
+def tan_squared(w: Direction) -> Scalar:
+    """Squared tangent of the angle to the normal; ``w`` may have any length."""
+    x, y, z = w
+    u, v = x / z, y / z
+    return u * u + v * v
+
+
 def half_vector(wi: Direction, wo: Direction) -> Direction:
     """Unit vector half-way between ``wi`` and ``wo``."""
     return numerics.normalize(wi + wo)
@@ -54,6 +61,17 @@ def mirror(w: Direction) -> Direction:
     """Mirror image of ``w`` about the normal."""
     x, y, z = w
     return jnp.stack([-x, -y, z])
+
+
+def mirror_deficit(wi: Direction, wo: Direction) -> Scalar:
+    """``1 - cos`` of the angle between ``wo`` and the mirror image of ``wi``.
+
+    Half the squared distance of the two, which keeps its digits near the mirror
+    direction, where a cosine has none left.
+    """
+    (xi, yi, zi), (xo, yo, zo) = wi, wo
+    x, y, z = xi + xo, yi + yo, zi - zo
+    return 0.5 * (x * x + y * y + z * z)
 
 
 def rotate_to(axis: Direction, w: Direction) -> Direction:

@@ -51,6 +51,17 @@ def pow(x: Real, exponent: Real) -> Real:
     return jnp.where(positive, power, 0.0)
 
 
+def pow_complement(deficit: Real, exponent: Real) -> Real:
+    """``(1 - deficit)**exponent``, and 0 where ``deficit >= 1``, exponent 0 included.
+
+    A high power of a number close to 1 keeps all its digits when that number is given
+    by its distance from 1.
+    """
+    inside = deficit < 1
+    power = jnp.exp(exponent * jnp.log1p(-jnp.where(inside, deficit, 0.0)))
+    return jnp.where(inside, power, 0.0)
+
+
 def cbrt(x: Real) -> Real:
     """Cube root of ``x >= 0``; 0 with derivative 0 where ``x <= 0``."""
     positive = x > 0

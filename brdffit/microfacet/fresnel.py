@@ -9,10 +9,10 @@ from brdffit.types import Direction, Scalar, Spectrum
 
 def cos_d(wh: Direction) -> Scalar:
     """``wi . wh`` from the bisector ``wi + wo``: half its length."""
-    return numerics.norm(wh) / 2
+    return numerics.norm_of(*wh) / 2
 
 
-def schlick(cos_d: Scalar, f0: Spectrum) -> Spectrum:
+def schlick(cos_d: Scalar, f0: Scalar | Spectrum) -> Scalar | Spectrum:
     r"""Schlick's approximation.
 
     $$F = F_0 + (1 - F_0)(1 - \cos\theta_d)^5$$

@@ -4,6 +4,8 @@
 0 / 0 to every model.
 """
 
+import jax.numpy as jnp
+
 from brdffit import numerics
 from brdffit.types import Direction, Scalar
 
@@ -28,3 +30,26 @@ def smith_ggx(
     if separable:
         return 1 / ((zi + ri) * (zo + ro))
     return 0.5 / (zo * ri + zi * ro)
+
+
+def v_cavity(wi: Direction, wo: Direction) -> Scalar:
+    r"""Masking-shadowing of symmetric V-shaped grooves, over $4\cos_i\cos_o$.
+
+    $$G = \min\Bigl(1,\;
+          \frac{2\cos\theta_h\cos\theta_o}{\cos\theta_d},\;
+          \frac{2\cos\theta_h\cos\theta_i}{\cos\theta_d}\Bigr)$$
+
+    With $H = \omega_i + \omega_o$ the last two become
+    $H_z / (|H|^2\max(\cos_i, \cos_o))$ after the division.
+
+    Source:
+        K. Torrance and E. Sparrow, "Theory for Off-Specular Reflection From Roughened
+        Surfaces", JOSA 57(9), 1967; in this form R. Cook and K. Torrance, "A
+        Reflectance Model for Computer Graphics", ACM TOG 1(1), 1982.
+    """
+    cos_i, cos_o = wi[2], wo[2]
+    wh = wi + wo
+    length = numerics.norm_of(*wh)
+    # two divisions by the length: one by its square overflows in the gradient
+    blocked = wh[2] / length / (length * jnp.maximum(cos_i, cos_o))
+    return jnp.minimum(0.25 / (cos_i * cos_o), blocked)

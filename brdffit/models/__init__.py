@@ -5,8 +5,14 @@ command line and the property tests find it by themselves.
 """
 
 from brdffit.models.base import AbstractBRDF as AbstractBRDF
+from brdffit.models.blinn_phong import BlinnPhong as BlinnPhong
+from brdffit.models.blinn_phong_original import BlinnPhongOriginal as BlinnPhongOriginal
+from brdffit.models.cook_torrance import CookTorrance as CookTorrance
 from brdffit.models.ggx import GGX as GGX
 from brdffit.models.lambert import Lambert as Lambert
+from brdffit.models.oren_nayar import OrenNayar as OrenNayar
+from brdffit.models.phong import Phong as Phong
+from brdffit.models.phong_original import PhongOriginal as PhongOriginal
 from brdffit.parameters import registry_name
 
 MODELS: dict[str, type[AbstractBRDF]] = {
