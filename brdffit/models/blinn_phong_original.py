@@ -11,7 +11,7 @@ from brdffit.types import Direction, Scalar, Spectrum
 
 
 class BlinnPhongOriginal(AbstractBRDF):
-    r"""Blinn's half-vector shading equation divided by the cosine of the incident angle.
+    r"""Blinn's half-vector shading equation divided by the incident cosine.
 
     $$f_r = k_d + k_s\,\frac{(\cos\theta_h)^p}{\cos\theta_i}$$
 

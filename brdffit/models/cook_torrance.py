@@ -12,7 +12,7 @@ from brdffit.types import Direction, Scalar, Spectrum
 
 
 class CookTorrance(AbstractBRDF):
-    r"""Diffuse base plus a microfacet lobe: Beckmann ndf, V-cavity masking, Schlick Fresnel.
+    r"""Diffuse base plus a lobe: Beckmann ndf, V-cavity masking, Schlick Fresnel.
 
     $$f_r = \frac{k_d}{\pi} + k_s\,\frac{D(\omega_h)\,F(\omega_i\cdot\omega_h)\,
             G(\omega_i, \omega_o)}{4\cos\theta_i\cos\theta_o}$$
