@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
     from brdffit.models import MODELS as MODELS, AbstractBRDF as AbstractBRDF
+    from brdffit.readers import load as load
     from brdffit.samples import Measurement as Measurement, Samples as Samples
 
 _HOME = {
@@ -32,6 +33,7 @@ _HOME = {
     "Measurement": "samples",
     "Samples": "samples",
     "directional_albedo": "albedo",
+    "load": "readers",
 }
 
 

@@ -1,0 +1,31 @@
+"""Files are whole or absent: written under a temporary name, then renamed."""
+
+import contextlib
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+
+@contextlib.contextmanager
+def replacing(path: str | Path) -> Iterator[Path]:
+    """A temporary path beside ``path`` that takes its place when the block succeeds.
+
+    The temporary name keeps the suffix, by which many libraries choose a format. When
+    the block fails, ``path`` is as it was before.
+
+    Raises:
+        OSError: The file cannot be written; the message names it and says why.
+    """
+    path = Path(path)
+    temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    try:
+        if not path.parent.is_dir():
+            raise NotADirectoryError(20, f"`{path.parent}` is not a folder")
+        yield temporary
+        temporary.replace(path)
+    except OSError as error:
+        reason = error.strerror or error
+        raise OSError(f"File `{path}` cannot be written: {reason}.") from error
+    finally:
+        with contextlib.suppress(OSError):
+            temporary.unlink()

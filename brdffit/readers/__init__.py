@@ -1,0 +1,82 @@
+"""Readers of measured reflectance, one file format per file.
+
+To add a format, write ``readers/<name>.py`` with
+
+- ``DESCRIPTION``, one line about the format;
+- ``SUFFIXES`` of its file names and what its content ``BEGINS`` with, for hints;
+- ``matches(path, head)``, whether a file with these first bytes is of the format;
+- ``load(path)``, which returns a Measurement or Samples;
+
+and add its line below. The content decides, never the name of a file.
+"""
+
+from pathlib import Path
+from typing import Protocol
+
+from brdffit.readers import table
+from brdffit.samples import Measurement, Samples
+
+HEAD = 4096  # bytes that a reader may look at to know its format
+
+
+class Reader(Protocol):
+    """What a module of this folder must have."""
+
+    DESCRIPTION: str
+    SUFFIXES: tuple[str, ...]
+    BEGINS: str
+
+    def matches(self, path: Path, head: bytes) -> bool:
+        """Whether the file or folder is of this format."""
+        ...
+
+    def load(self, path: Path | str) -> Measurement | Samples:
+        """Read it."""
+        ...
+
+
+READERS: dict[str, Reader] = {
+    "table": table,
+}
+
+
+def load(path: Path | str) -> Measurement | Samples:
+    """Read a measurement; the content of the file or folder decides its format.
+
+    Raises:
+        ValueError: The content is of no known format, or is wrong.
+        OSError: The file cannot be read.
+    """
+    return READERS[format_of(path)].load(path)
+
+
+def format_of(path: Path | str) -> str:
+    """Name of the reader that reads this file or folder.
+
+    Raises:
+        ValueError: The content is of no known format.
+        OSError: The file cannot be read.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise FileNotFoundError(f"File `{path}` does not exist; check its name.")
+    head = b""
+    if path.is_file():
+        with path.open("rb") as stream:
+            head = stream.read(HEAD)
+        if not head:
+            raise ValueError(f"File `{path}` is empty.")
+    for name, reader in READERS.items():
+        if reader.matches(path, head):
+            return name
+    hint = ""
+    for reader in READERS.values():
+        if path.suffix.lower() in reader.SUFFIXES:
+            hint += (
+                f" Its name ends like one of {reader.DESCRIPTION.partition(':')[0]}, "
+                f"which begins {reader.BEGINS}."
+            )
+    raise ValueError(
+        f"`{path}` is not a measurement that brdffit can read.{hint} It reads: "
+        f"{'; '.join(reader.DESCRIPTION for reader in READERS.values())}."
+    )

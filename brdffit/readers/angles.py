@@ -1,0 +1,15 @@
+"""Angles of files as unit vectors, in numpy and in the precision of the file."""
+
+import numpy as np
+
+
+def directions(theta: np.ndarray, phi: np.ndarray) -> np.ndarray:
+    """Unit vectors ``(..., 3)`` with polar angle ``theta``, azimuth ``phi`` (radians).
+
+    Both broadcast. A negative polar angle leans the other way, as goniometers write it.
+    """
+    theta, phi = np.broadcast_arrays(theta, phi)
+    sin_theta = np.sin(theta)
+    return np.stack(
+        [sin_theta * np.cos(phi), sin_theta * np.sin(phi), np.cos(theta)], axis=-1
+    )
