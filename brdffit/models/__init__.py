@@ -13,6 +13,9 @@ from brdffit.models.lambert import Lambert as Lambert
 from brdffit.models.oren_nayar import OrenNayar as OrenNayar
 from brdffit.models.phong import Phong as Phong
 from brdffit.models.phong_original import PhongOriginal as PhongOriginal
+from brdffit.models.ward import Ward as Ward
+from brdffit.models.ward_bounded import WardBounded as WardBounded
+from brdffit.models.ward_duer import WardDuer as WardDuer
 from brdffit.parameters import registry_name
 
 MODELS: dict[str, type[AbstractBRDF]] = {
