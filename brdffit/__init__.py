@@ -19,13 +19,17 @@ Names are loaded when first used, so that ``import brdffit`` costs nothing.
 """
 
 import importlib
+import sys
+import types
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
     from brdffit.models import MODELS as MODELS, AbstractBRDF as AbstractBRDF
     from brdffit.readers import load as load
+    from brdffit.render import render as render
     from brdffit.samples import Measurement as Measurement, Samples as Samples
+    from brdffit.scene import load_scene as load_scene
 
 _HOME = {
     "MODELS": "models",
@@ -34,6 +38,8 @@ _HOME = {
     "Samples": "samples",
     "directional_albedo": "albedo",
     "load": "readers",
+    "load_scene": "scene",
+    "render": "render",
 }
 
 
@@ -47,3 +53,19 @@ def __getattr__(name: str) -> Any:
 def __dir__() -> list[str]:
     """Public names, so that completion finds them before they are loaded."""
     return sorted(_HOME)
+
+
+class _Package(types.ModuleType):
+    """A package whose functions are not hidden by subpackages of the same name.
+
+    Importing ``brdffit.render`` would bind the folder to the name of the function
+    ``render``, and so would ``brdffit.fit``. Both stay importable: ``from
+    brdffit.render import trace``.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name in _HOME and isinstance(value, types.ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

@@ -86,6 +86,15 @@ def rotate_to(axis: Direction, w: Direction) -> Direction:
     return w[0] * u + w[1] * v + w[2] * axis
 
 
+def cylindrical_tangent(normal: Direction) -> Direction:
+    """Tangent that runs around the y axis, as circles of latitude do on a sphere.
+
+    Towards +x where the normal is +z; zero where the normal is the axis itself.
+    """
+    x, _, z = normal
+    return numerics.normalize(jnp.stack([z, jnp.zeros_like(z), -x]))
+
+
 def shading_frame(normal: Direction, tangent: Direction) -> Float[Array, "3 3"]:
     """Rows tangent, bitangent, normal: ``frame @ w`` is ``w`` in the local frame.
 

@@ -1,0 +1,67 @@
+"""A scene: everything an image depends on except the BRDF."""
+
+from collections.abc import Sequence
+
+import equinox as eqx
+
+from brdffit.scene import values
+from brdffit.scene.camera import Orthographic
+from brdffit.scene.lights import Directional
+from brdffit.scene.shapes import Sphere
+
+
+class Scene(eqx.Module):
+    """A camera looks at a shape under lights.
+
+    Attributes:
+        camera: Which ray belongs to which pixel.
+        shape: What the rays meet.
+        lights: One or more lights that shine together.
+        exposure: Value of a pixel for unit radiance.
+
+    Raises:
+        ValueError: There is no light, lights differ in their number of channels, or
+            the exposure is not a positive number.
+    """
+
+    camera: Orthographic
+    shape: Sphere
+    lights: tuple[Directional, ...]
+    exposure: float = 1.0
+
+    def __post_init__(self) -> None:
+        """Check what can be wrong about the whole."""
+        self.lights = tuple(self.lights)
+        self.exposure = values.positive("exposure", self.exposure)
+        if not self.lights:
+            raise ValueError("`lights` must hold at least one light.")
+        sizes = {light.irradiance.shape for light in self.lights} - {()}
+        if len(sizes) > 1:
+            raise ValueError(
+                "`irradiance` must have the same number of channels in all lights, "
+                f"but has {', '.join(sorted(str(size) for (size,) in sizes))}."
+            )
+
+    @property
+    def channels(self) -> int | None:
+        """Number of channels of the lights, or None when each gives one number."""
+        sizes = {light.irradiance.shape for light in self.lights} - {()}
+        return sizes.pop()[0] if sizes else None
+
+
+def lit_sphere(
+    resolution: int = 256,
+    directions: Sequence[Sequence[float]] = ((-0.48, 0.6, 0.64),),
+    irradiance: float | Sequence[float] = 1.0,
+    exposure: float = 1.0,
+) -> Scene:
+    """A unit sphere that fills the frame, under equal directional lights.
+
+    Args:
+        resolution: Rows and columns of the image.
+        directions: Unit vectors towards the lights: x right, y up, z to the viewer.
+        irradiance: Of each light, a number or one for each channel.
+        exposure: Value of a pixel for unit radiance.
+    """
+    lights = tuple(Directional(direction, irradiance) for direction in directions)
+    return Scene(Orthographic(resolution), Sphere(), lights, exposure)

@@ -1,0 +1,76 @@
+"""Values of a scene, checked once, with the name of the key in every complaint."""
+
+import numbers
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+TOLERANCE = 1e-3  # how far from 1 the length of a direction may be
+
+
+def whole(key: str, value: Any) -> int:
+    """A positive whole number.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    right = isinstance(value, numbers.Integral) and not isinstance(value, bool)
+    if not right or value < 1:
+        raise ValueError(f"`{key}` must be a positive whole number, but is {value!r}.")
+    return int(value)
+
+
+def positive(key: str, value: Any) -> float:
+    """A finite number above zero.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    array = _numbers(key, value)
+    if array.ndim or not array > 0:
+        raise ValueError(f"`{key}` must be one number above 0, but is {value!r}.")
+    return float(array)
+
+
+def spectrum(key: str, value: Any) -> Float[np.ndarray, "..."]:
+    """One number that is not negative, or a list with one for each channel.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    array = _numbers(key, value)
+    if array.ndim > 1 or array.size == 0 or np.any(array < 0):
+        raise ValueError(
+            f"`{key}` must be a number or a list of numbers, none negative, "
+            f"but is {value!r}."
+        )
+    return array
+
+
+def unit_vector(key: str, value: Any) -> Float[np.ndarray, "3"]:
+    """Three numbers of length 1; what rounding has taken from the length is restored.
+
+    Raises:
+        ValueError: It is not three numbers, or the length is off by more than 0.001.
+    """
+    array = _numbers(key, value)
+    if array.shape != (3,):
+        raise ValueError(f"`{key}` must be three numbers, but is {value!r}.")
+    length = np.linalg.norm(array)
+    if abs(length - 1) > TOLERANCE:
+        raise ValueError(
+            f"`{key}` must be a unit vector, but {array.tolist()} has length "
+            f"{length:.6g}."
+        )
+    return array / length
+
+
+def _numbers(key: str, value: Any) -> Float[np.ndarray, "..."]:
+    try:
+        array = np.asarray(value)
+    except ValueError:  # lists of different lengths
+        array = np.asarray(None)
+    if array.dtype.kind not in "iuf" or not np.all(np.isfinite(array)):
+        raise ValueError(f"`{key}` must consist of finite numbers, but is {value!r}.")
+    return array.astype(np.float64)
