@@ -11,6 +11,11 @@ from jaxtyping import Array, Float
 
 Real = Float[Array, "..."]
 
+# of log(1 + x) / x, highest power first
+LOG1P_SERIES = tuple((-1) ** n / (n + 1) for n in reversed(range(11)))
+
+SQRT_PI = 1.7724538509055159
+
 
 def sqrt(x: Real) -> Real:
     """``sqrt(max(x, 0))``; the derivative is 0 for ``x <= 0``."""
@@ -58,8 +63,30 @@ def pow_complement(deficit: Real, exponent: Real) -> Real:
     by its distance from 1.
     """
     inside = deficit < 1
-    power = jnp.exp(exponent * jnp.log1p(-jnp.where(inside, deficit, 0.0)))
-    return jnp.where(inside, power, 0.0)
+    power = exponent * jnp.log1p(-jnp.where(inside, deficit, 0.0))
+    largest = 0.9 * jnp.log(jnp.finfo(deficit.dtype).max)
+    return jnp.where(inside, jnp.exp(jnp.minimum(power, largest)), 0.0)
+
+
+def log_ratio(x: Real) -> Real:
+    """``log(x) / (x - 1)`` for ``x > 0``; 1 at ``x = 1``, by its series close to it."""
+    away = x - 1
+    close = jnp.abs(away) < 0.03
+    series = jnp.zeros_like(x)
+    for order in range(10, 0, -1):
+        series = 1 / order - jnp.where(close, away, 0.0) * series
+    far = jnp.where(close, 2.0, x)
+    return jnp.where(close, series, jnp.log(far) / (far - 1))
+
+
+def log1p_ratio(x: Real) -> Real:
+    """``log(1 + x) / x`` for ``x > -1``, and 1 at 0, where the quotient is 0 / 0."""
+    small = jnp.abs(x) < 0.03
+    near, series = jnp.where(small, x, 0.0), jnp.zeros_like(x)
+    for coefficient in LOG1P_SERIES:
+        series = series * near + coefficient
+    apart = jnp.where(small, 1.0, x)
+    return jnp.where(small, series, jnp.log1p(apart) / apart)
 
 
 def cbrt(x: Real) -> Real:

@@ -1,35 +1,123 @@
-"""Masking-shadowing functions, divided by the Jacobian of the half vector.
+r"""Masking-shadowing functions, divided by the Jacobian of the half vector.
 
 ``G(wi, wo) / (4 cos_i cos_o)`` is finite at grazing angles; ``G`` alone would leave a
 0 / 0 to every model.
+
+Smith's functions are written with the projected area of the facets that face a
+direction, $A(\omega) = \int \max(0, \omega\cdot h) D(h)\,dh = \cos\theta\,(1 +
+\Lambda)$, which is finite at all angles where $\Lambda$ is not. Masking alone is
+$G_1(\omega) = \cos\theta / A(\omega)$. The height of a facet makes masking and
+shadowing depend on each other; the separable form leaves that out.
 """
 
+import jax
 import jax.numpy as jnp
 
 from brdffit import numerics
+from brdffit.geometry import bisector, cos_theta
 from brdffit.types import Direction, Scalar
 
 
 def smith_ggx(
     wi: Direction, wo: Direction, alpha_x: Scalar, alpha_y: Scalar, separable: bool
 ) -> Scalar:
-    r"""Smith masking-shadowing for GGX, over $4\cos_i\cos_o$.
+    """Smith masking-shadowing for GGX, over ``4 cos_i cos_o``; see `smith`."""
+    area_i = area_ggx(wi, alpha_x, alpha_y)
+    area_o = area_ggx(wo, alpha_x, alpha_y)
+    return smith(cos_theta(wi), cos_theta(wo), area_i, area_o, separable)
 
-    $$\frac{G}{4\cos_i\cos_o} = \frac{1}{2\,(\cos_o R_i + \cos_i R_o)}, \qquad
-      R(\omega) = \sqrt{(\alpha_x x)^2 + (\alpha_y y)^2 + z^2}$$
 
-    and $1 / \bigl((\cos_i + R_i)(\cos_o + R_o)\bigr)$ when separable.
+def smith_beckmann(
+    wi: Direction, wo: Direction, alpha_x: Scalar, alpha_y: Scalar, separable: bool
+) -> Scalar:
+    """Smith masking-shadowing for Beckmann, over ``4 cos_i cos_o``; see `smith`."""
+    area_i = area_beckmann(wi, alpha_x, alpha_y)
+    area_o = area_beckmann(wo, alpha_x, alpha_y)
+    return smith(cos_theta(wi), cos_theta(wo), area_i, area_o, separable)
+
+
+def smith(
+    cos_i: Scalar, cos_o: Scalar, area_i: Scalar, area_o: Scalar, separable: bool
+) -> Scalar:
+    r"""Smith masking-shadowing from projected areas, over $4\cos_i\cos_o$.
+
+    $$\frac{G}{4\cos_i\cos_o} = \frac{1}{4\cos_i\cos_o\,(1 + \Lambda_i + \Lambda_o)}
+      = \frac{1}{4\,(A_i\cos_o + A_o\cos_i - \cos_i\cos_o)}$$
+
+    and $1 / (4 A_i A_o)$ when separable.
 
     Source:
         E. Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based
-        BRDFs", JCGT 3(2), 2014, eq. 99 with the GGX Lambda of eq. 72.
+        BRDFs", JCGT 3(2), 2014, eq. 98 (separable) and 99.
     """
-    (xi, yi, zi), (xo, yo, zo) = wi, wo
-    ri = numerics.norm_of(alpha_x * xi, alpha_y * yi, zi)
-    ro = numerics.norm_of(alpha_x * xo, alpha_y * yo, zo)
     if separable:
-        return 1 / ((zi + ri) * (zo + ro))
-    return 0.5 / (zo * ri + zi * ro)
+        return 0.25 / (area_i * area_o)
+    return 0.25 / (area_i * cos_o + (area_o - cos_o) * cos_i)
+
+
+def area_ggx(w: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
+    r"""Projected area of GGX facets that face ``w``.
+
+    $$A = \tfrac12\Bigl(z + \sqrt{(\alpha_x x)^2 + (\alpha_y y)^2 + z^2}\Bigr)$$
+
+    Source:
+        E. Heitz, JCGT 3(2), 2014, eq. 72 and 80.
+    """
+    x, y, z = w
+    return 0.5 * (z + numerics.norm_of(alpha_x * x, alpha_y * y, z))
+
+
+def area_beckmann(w: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
+    r"""Projected area of Beckmann facets that face ``w``.
+
+    $$A = \tfrac12\Bigl(z\,(1 + \mathrm{erf}(z/t))
+          + \frac{t}{\sqrt\pi}\,e^{-(z/t)^2}\Bigr),
+      \qquad t = \sqrt{(\alpha_x x)^2 + (\alpha_y y)^2}$$
+
+    Source:
+        E. Heitz, JCGT 3(2), 2014, eq. 66 and 80.
+    """
+    x, y, z = w
+    return _area_beckmann(z, numerics.norm_of(alpha_x * x, alpha_y * y))
+
+
+@jax.custom_jvp
+def _area_beckmann(z: Scalar, t: Scalar) -> Scalar:
+    smooth, erf, bell = _bell(z, t)
+    return jnp.where(smooth, z, 0.5 * (z * (1 + erf) + t * bell))
+
+
+@_area_beckmann.defjvp
+def _area_beckmann_jvp(primals, tangents):
+    # by hand: the derivatives of erf and of the bell cancel, which autodiff cannot see
+    (z, t), (dz, dt) = primals, tangents
+    _, erf, bell = _bell(z, t)
+    return _area_beckmann(z, t), 0.5 * ((1 + erf) * dz + bell * dt)
+
+
+def _bell(z: Scalar, t: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+    """Whether all facets face ``w``, ``erf(z/t)`` and ``exp(-(z/t)^2)/sqrt(pi)``."""
+    smooth = 20 * t < z
+    cotangent = jnp.where(smooth, 20.0, z / jnp.where(smooth, 1.0, t))
+    bell = jnp.exp(-cotangent * cotangent) / numerics.SQRT_PI
+    return smooth, jax.lax.erf(cotangent), bell
+
+
+def area_beckmann_rational(w: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
+    r"""Rational approximation of `area_beckmann`, as many renderers have it.
+
+    With $b = z/t$ masking is $G_1 = (3.535 b + 2.181 b^2) / (1 + 2.276 b + 2.577 b^2)$
+    below $b = 1.6$ and 1 above. Largest error of $G_1$: 0.31 %, at $b = 1.34$; it is
+    0.9972 of the truth towards grazing and jumps by 6e-5 at $b = 1.6$.
+
+    Source:
+        B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
+        EGSR 2007, eq. 27.
+    """
+    x, y, z = w
+    t = numerics.norm_of(alpha_x * x, alpha_y * y)
+    rough = (t * t + 2.276 * z * t + 2.577 * z * z) / (3.535 * t + 2.181 * z)
+    return jnp.where(z < 1.6 * t, rough, z)
 
 
 def v_cavity(wi: Direction, wo: Direction) -> Scalar:
@@ -47,8 +135,8 @@ def v_cavity(wi: Direction, wo: Direction) -> Scalar:
         Surfaces", JOSA 57(9), 1967; in this form R. Cook and K. Torrance, "A
         Reflectance Model for Computer Graphics", ACM TOG 1(1), 1982.
     """
-    cos_i, cos_o = wi[2], wo[2]
-    wh = wi + wo
+    cos_i, cos_o = cos_theta(wi), cos_theta(wo)
+    wh = bisector(wi, wo)
     length = numerics.norm_of(*wh)
     # two divisions by the length: one by its square overflows in the gradient
     blocked = wh[2] / length / (length * jnp.maximum(cos_i, cos_o))
