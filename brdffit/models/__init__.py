@@ -4,13 +4,18 @@ To add a model, write ``models/<name>.py`` and add its line below; the registry,
 command line and the property tests find it by themselves.
 """
 
+from brdffit.models.ashikhmin_shirley import AshikhminShirley as AshikhminShirley
+from brdffit.models.banks import Banks as Banks
 from brdffit.models.base import AbstractBRDF as AbstractBRDF
 from brdffit.models.blinn_phong import BlinnPhong as BlinnPhong
 from brdffit.models.blinn_phong_original import BlinnPhongOriginal as BlinnPhongOriginal
 from brdffit.models.cook_torrance import CookTorrance as CookTorrance
+from brdffit.models.eon import Eon as Eon
 from brdffit.models.ggx import GGX as GGX
+from brdffit.models.lafortune import Lafortune as Lafortune
 from brdffit.models.lambert import Lambert as Lambert
 from brdffit.models.oren_nayar import OrenNayar as OrenNayar
+from brdffit.models.oren_nayar_full import OrenNayarFull as OrenNayarFull
 from brdffit.models.phong import Phong as Phong
 from brdffit.models.phong_original import PhongOriginal as PhongOriginal
 from brdffit.models.ward import Ward as Ward

@@ -19,8 +19,8 @@ class WardBounded(AbstractBRDF):
             {(\cos\theta_i + \cos\theta_o)^4}, \qquad
       E = \exp\Bigl(-\frac{(h_x/\alpha_x)^2 + (h_y/\alpha_y)^2}{h_z^2}\Bigr)$$
 
-    The gloss is the Beckmann ndf over $4\cos^2\theta_d$: with $H = \omega_i + \omega_o$,
-    $2\,(1 + \omega_i\cdot\omega_o) = |H|^2$ and
+    The gloss is the Beckmann ndf over $4\cos^2\theta_d$: with
+    $H = \omega_i + \omega_o$, $2\,(1 + \omega_i\cdot\omega_o) = |H|^2$ and
     $\cos\theta_i + \cos\theta_o = H_z = |H|\cos\theta_h$.
 
     Range:
