@@ -13,10 +13,10 @@ and add its line below. The content decides, never the name of a file.
 from pathlib import Path
 from typing import Protocol
 
-from brdffit.readers import table
+from brdffit.readers import fred, table, zemax
 from brdffit.samples import Measurement, Samples
 
-HEAD = 4096  # bytes that a reader may look at to know its format
+HEAD = 65536  # bytes that a reader may look at to know its format
 
 
 class Reader(Protocol):
@@ -37,6 +37,8 @@ class Reader(Protocol):
 
 READERS: dict[str, Reader] = {
     "table": table,
+    "fred": fred,
+    "zemax": zemax,
 }
 
 

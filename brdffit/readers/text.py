@@ -3,11 +3,15 @@
 A line that cannot be read is named by its number.
 """
 
+from array import array
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 LONGEST_LINE = 1_000_000
+TAIL = 2000  # bytes
 
 
 class Line(NamedTuple):
@@ -48,10 +52,11 @@ def lines(path: Path | str) -> Iterator[Line]:
     Bytes that are not UTF-8 are replaced, so that a foreign comment does no harm.
 
     Raises:
-        ValueError: A line is longer than a million characters.
+        ValueError: A line is longer than a million characters, or the last is cut off.
         OSError: The file cannot be read.
     """
     path = Path(path)
+    refuse_cut_number(path)
     with path.open(encoding="utf-8-sig", errors="replace") as stream:
         number = 0
         while text := stream.readline(LONGEST_LINE):
@@ -63,3 +68,69 @@ def lines(path: Path | str) -> Iterator[Line]:
                 )
             if stripped := text.strip():
                 yield Line(path, number, stripped)
+
+
+def refuse_cut_number(path: Path) -> None:
+    """Refuse a file that ends within a number, which would be read as another number.
+
+    It does when there is no line break at the end and all of the last lines but the
+    very last have numbers with equally many decimals.
+    """
+    with path.open("rb") as stream:
+        stream.seek(max(0, path.stat().st_size - TAIL))
+        *others, last = stream.read(TAIL).split(b"\n")
+    decimals = {len(line.rstrip().rpartition(b".")[2]) for line in others[-20:]}
+    if last and len(decimals) == 1 and len(last.rpartition(b".")[2]) < min(decimals):
+        raise ValueError(
+            f"File `{path}` is cut off within its last number, `{last.decode(errors='replace')}`."
+        )
+
+
+class Words:
+    """The words of a text file one after another, across lines and without comments.
+
+    For formats in which a label says how many numbers follow. Nothing is set aside for
+    numbers that a label promises: memory grows with what the file holds.
+    """
+
+    def __init__(self, path: Path | str, comment: str = "#"):
+        """Begin at the start of ``path``."""
+        self.path = Path(path)
+        self.line = Line(self.path, 0, "")
+        self._stream = self._words(comment)
+
+    def _words(self, comment: str) -> Iterator[str]:
+        for line in lines(self.path):
+            self.line = line
+            if not line.text.startswith(comment):
+                yield from line.text.split()
+
+    def word(self, expected: str) -> str:
+        """The next word.
+
+        Raises:
+            ValueError: The file ends.
+        """
+        word = next(self._stream, None)
+        if word is None:
+            raise ValueError(
+                f"File `{self.path}` ends after line {self.line.number}, where "
+                f"{expected} should follow; it is cut off."
+            )
+        return word
+
+    def number(self, expected: str) -> float:
+        """The next word as a number."""
+        word = self.word(expected)
+        return self.line.number_from(word)
+
+    def numbers(self, expected: str, count: float | None = None) -> np.ndarray:
+        """So many numbers; as many as the next word says when ``count`` is None."""
+        if count is None:
+            count = self.number(f"the number of {expected}")
+            if not (count >= 1 and count == int(count)):
+                raise self.line.error(f"the number of {expected} must be 1 or more.")
+        found = array("d")
+        while len(found) < count:
+            found.append(self.number(f"number {len(found) + 1} of {expected}"))
+        return np.frombuffer(found)
