@@ -69,6 +69,20 @@ def parameter(
     )
 
 
+def known(default: float, *, unit: str, symbol: str) -> Any:
+    """Declare a model field with one value per channel that is given, never fitted."""
+    return eqx.field(default=default, metadata={"known": (unit, symbol)})
+
+
+def spectral_fields(model: eqx.Module | type[eqx.Module]) -> dict[str, bool]:
+    """Own numeric fields of a model: True for one value per channel, False for one."""
+    return {
+        field.name: "known" in field.metadata or field.metadata["parameter"].spectral
+        for field in dataclasses.fields(model)
+        if field.metadata.keys() & {"known", "parameter"}
+    }
+
+
 def as_float(value: Any) -> Array:
     """``value`` as an array of floats; the precision of a float array is kept."""
     dtype = jnp.result_type(jnp.asarray(value))

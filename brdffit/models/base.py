@@ -7,7 +7,13 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from brdffit.geometry import cos_theta
-from brdffit.parameters import as_float, parameters, registry_name
+from brdffit.parameters import (
+    as_float,
+    parameters,
+    registry_name,
+    spectral_fields,
+    values,
+)
 from brdffit.types import Direction, Spectrum
 
 RGB = 3
@@ -30,16 +36,16 @@ class AbstractBRDF(eqx.Module):
 
     def __post_init__(self) -> None:
         """Give all spectral parameters the same number of channels."""
-        own = {n: p for n, p in parameters(type(self)).items() if "." not in n}
-        arrays = {name: as_float(getattr(self, name)) for name in own}
-        for name, known in own.items():
-            if arrays[name].ndim > known.spectral:
+        spectral = spectral_fields(self)
+        arrays = {name: as_float(getattr(self, name)) for name in spectral}
+        for name in spectral:
+            if arrays[name].ndim > spectral[name]:
                 raise ValueError(
                     f"Parameter `{name}` of `{registry_name(self)}` must be "
-                    f"{'a list of numbers' if known.spectral else 'one number'}, "
+                    f"{'a list of numbers' if spectral[name] else 'one number'}, "
                     f"but has shape {arrays[name].shape}."
                 )
-        sized = {n: a.shape for n, a in arrays.items() if own[n].spectral and a.ndim}
+        sized = {n: a.shape for n, a in arrays.items() if spectral[n] and a.ndim}
         if len(set(sized.values())) > 1:
             raise ValueError(
                 f"Spectral parameters of `{registry_name(self)}` must have the same "
@@ -48,8 +54,21 @@ class AbstractBRDF(eqx.Module):
             )
         channels = next(iter(sized.values()), (RGB,))
         for name, array in arrays.items():
-            shape = channels if own[name].spectral else ()
+            shape = channels if spectral[name] else ()
             setattr(self, name, jnp.broadcast_to(array, shape))
+
+    @property
+    def channels(self) -> int:
+        """Number of channels of ``f_r``."""
+        known = parameters(self)
+        return next(v.shape[-1] for n, v in values(self).items() if known[n].spectral)
+
+    def __add__(self, other: "AbstractBRDF") -> "AbstractBRDF":
+        """Both models side by side, as a `Sum`."""
+        # imported late: a sum is a model, and is built on this interface
+        from brdffit.models.sum import Sum
+
+        return Sum(self, other)
 
     @abc.abstractmethod
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
