@@ -20,11 +20,14 @@ Names are loaded when first used, so that ``import brdffit`` costs nothing.
 
 import importlib
 import sys
-import types
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
+    from brdffit.fit import FitResult as FitResult, fit as fit
+    from brdffit.fit.result import load_result as load_result
+    from brdffit.fit.select import Comparison as Comparison, compare as compare
     from brdffit.models import MODELS as MODELS, AbstractBRDF as AbstractBRDF
     from brdffit.readers import load as load
     from brdffit.render import render as render
@@ -34,20 +37,29 @@ if TYPE_CHECKING:
 _HOME = {
     "MODELS": "models",
     "AbstractBRDF": "models",
+    "Comparison": "fit.select",
+    "FitResult": "fit",
     "Measurement": "samples",
     "Samples": "samples",
+    "compare": "fit.select",
     "directional_albedo": "albedo",
+    "fit": "fit",
     "load": "readers",
+    "load_result": "fit.result",
     "load_scene": "scene",
     "render": "render",
 }
 
 
 def __getattr__(name: str) -> Any:
-    """Load a public name from the module that defines it."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'brdffit' has no attribute {name!r}")
-    return getattr(importlib.import_module(f"brdffit.{_HOME[name]}"), name)
+    """Load a public name from the module that defines it, or a module itself."""
+    if name in _HOME:
+        return getattr(importlib.import_module(f"brdffit.{_HOME[name]}"), name)
+    try:
+        return importlib.import_module(f"brdffit.{name}")
+    except ModuleNotFoundError:
+        message = f"module 'brdffit' has no attribute {name!r}"
+        raise AttributeError(message) from None
 
 
 def __dir__() -> list[str]:
@@ -55,7 +67,7 @@ def __dir__() -> list[str]:
     return sorted(_HOME)
 
 
-class _Package(types.ModuleType):
+class _Package(ModuleType):
     """A package whose functions are not hidden by subpackages of the same name.
 
     Importing ``brdffit.render`` would bind the folder to the name of the function
@@ -64,7 +76,7 @@ class _Package(types.ModuleType):
     """
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if not (name in _HOME and isinstance(value, types.ModuleType)):
+        if not (name in _HOME and isinstance(value, ModuleType)):
             super().__setattr__(name, value)
 
 
