@@ -1,4 +1,10 @@
 """Images of a BRDF: the geometry is traced once, then shaded as often as needed."""
 
 from brdffit.render.geometry_pass import local_samples as local_samples, trace as trace
+from brdffit.render.noise import NOISELESS as NOISELESS, Noise as Noise
 from brdffit.render.shading import render as render, shade as shade
+from brdffit.render.simulate import (
+    provenance as provenance,
+    simulate_image as simulate_image,
+    simulate_measurement as simulate_measurement,
+)

@@ -28,8 +28,8 @@ def trace(scene: Scene, channels: int | None = None) -> Samples:
     """
     origin, direction = scene.camera.rays()
     with jax.enable_x64(True):
-        meet = jax.jit(jax.vmap(scene.shape.intersect))
-        distance, normal = map(np.asarray, meet(origin, direction))
+        distance, normal = _first_hit(scene.shape, origin, direction)
+        distance, normal = np.asarray(distance), np.asarray(normal)
     seen = np.isfinite(distance)
     row, column = np.divmod(np.flatnonzero(seen), scene.camera.shape[1])
     frame = np.zeros_like(row)
@@ -66,7 +66,8 @@ def local_samples(
         )
     towards = np.stack([light.direction for light in scene.lights])
     with jax.enable_x64(True):
-        wo, wi = map(np.asarray, _to_local(normal, to_viewer, towards))
+        wo, wi = _to_local(normal, to_viewer, towards)
+        wo, wi = np.asarray(wo), np.asarray(wi)
     irradiance = np.stack(
         [np.broadcast_to(light.irradiance, channels) for light in scene.lights]
     )
@@ -79,6 +80,12 @@ def local_samples(
         channels=default_channels(channels),
         pixels=pixels,
     )
+
+
+@jax.jit
+def _first_hit(shape, origin, direction):
+    """Distance ``(N,)`` along each ray, infinite for a miss, and normal ``(N, 3)``."""
+    return jax.vmap(shape.intersect)(origin, direction)
 
 
 @jax.jit

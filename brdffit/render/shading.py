@@ -34,7 +34,9 @@ def render(brdf: AbstractBRDF, scene: Scene) -> Image:
     """
     samples = trace(scene, channels(brdf))
     assert samples.pixels is not None  # for the type checker
-    return samples.pixels.images(np.asarray(_shade(brdf, samples)), background=0.0)[0]
+    return samples.pixels.images(
+        np.asarray(compiled_shade(brdf, samples)), background=0.0
+    )[0]
 
 
 def channels(brdf: AbstractBRDF) -> int:
@@ -43,4 +45,4 @@ def channels(brdf: AbstractBRDF) -> int:
     return jax.eval_shape(brdf, direction, direction).shape[0]
 
 
-_shade = eqx.filter_jit(shade)
+compiled_shade = eqx.filter_jit(shade)

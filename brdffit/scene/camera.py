@@ -26,7 +26,7 @@ class Orthographic(eqx.Module):
 
     def __post_init__(self) -> None:
         """Check the resolution."""
-        self.resolution = values.whole("resolution", self.resolution)
+        self.resolution = values.whole("resolution", self.resolution, least=1)
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -19,9 +19,8 @@ where the pixels came from and is no part of the scene.
 """
 
 import dataclasses
-import difflib
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +29,7 @@ import numpy as np
 import tomli_w
 
 from brdffit.files import replacing
+from brdffit.names import look_up
 from brdffit.scene.camera import Orthographic
 from brdffit.scene.lights import Directional
 from brdffit.scene.scene import Scene
@@ -113,18 +113,13 @@ def _part(place: str, table: Any, kinds: Mapping[str, type[eqx.Module]]) -> Any:
     """The camera, shape or light that one table of the file describes."""
     if not isinstance(table, dict):
         raise ValueError(f"`{place}` must be a table, but is {table!r}.")
-    if "kind" not in table:
-        raise ValueError(f"key `kind` is missing in `{place}`.")
-    kind = table["kind"]
-    if not isinstance(kind, str) or kind not in kinds:
-        raise ValueError(
-            f"`kind` of `{place}` must be {_alternatives(kinds)}, but is {kind!r}"
-            f"{_suggestion(str(kind), kinds)}."
-        )
+    if not isinstance(table.get("kind"), str):
+        raise ValueError(f"`{place}` must say its `kind`: {' or '.join(kinds)}.")
+    made = look_up(kinds, table["kind"], f"`kind` of `{place}`,")
     rest = {key: value for key, value in table.items() if key != "kind"}
     try:
-        _check_keys(rest, kinds[kind])
-        return kinds[kind](**rest)
+        _check_keys(rest, made)
+        return made(**rest)
     except ValueError as error:
         raise ValueError(f"in `{place}`, {error}") from error
 
@@ -132,20 +127,10 @@ def _part(place: str, table: Any, kinds: Mapping[str, type[eqx.Module]]) -> Any:
 def _check_keys(table: Mapping[str, Any], made: type[eqx.Module]) -> None:
     fields = {field.name: field for field in dataclasses.fields(made)}
     for key in table:
-        if key not in fields:
-            raise ValueError(f"key `{key}` is unknown{_suggestion(key, fields)}.")
+        look_up(fields, key, "key")
     for name, field in fields.items():
         if field.default is dataclasses.MISSING and name not in table:
             raise ValueError(f"key `{name}` is missing.")
-
-
-def _alternatives(names: Iterable[str]) -> str:
-    return " or ".join(f"`{name}`" for name in names)
-
-
-def _suggestion(name: str, known: Iterable[str]) -> str:
-    near = difflib.get_close_matches(name, known, n=1)
-    return f" (did you mean `{near[0]}`?)" if near else ""
 
 
 def _table(part: eqx.Module) -> dict[str, Any]:

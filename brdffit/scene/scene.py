@@ -1,5 +1,6 @@
 """A scene: everything an image depends on except the BRDF."""
 
+import math
 from collections.abc import Sequence
 
 import equinox as eqx
@@ -52,7 +53,7 @@ class Scene(eqx.Module):
 def lit_sphere(
     resolution: int = 256,
     directions: Sequence[Sequence[float]] = ((-0.48, 0.6, 0.64),),
-    irradiance: float | Sequence[float] = 1.0,
+    irradiance: float | Sequence[float] = math.pi,
     exposure: float = 1.0,
 ) -> Scene:
     """A unit sphere that fills the frame, under equal directional lights.
@@ -60,7 +61,8 @@ def lit_sphere(
     Args:
         resolution: Rows and columns of the image.
         directions: Unit vectors towards the lights: x right, y up, z to the viewer.
-        irradiance: Of each light, a number or one for each channel.
+        irradiance: Of each light, a number or one for each channel; with pi a white
+            diffuse surface that faces the light has the value 1.
         exposure: Value of a pixel for unit radiance.
     """
     lights = tuple(Directional(direction, irradiance) for direction in directions)

@@ -9,15 +9,17 @@ from jaxtyping import Float
 TOLERANCE = 1e-3  # how far from 1 the length of a direction may be
 
 
-def whole(key: str, value: Any) -> int:
-    """A positive whole number.
+def whole(key: str, value: Any, least: int) -> int:
+    """A whole number, ``least`` or above.
 
     Raises:
         ValueError: It is anything else.
     """
     right = isinstance(value, numbers.Integral) and not isinstance(value, bool)
-    if not right or value < 1:
-        raise ValueError(f"`{key}` must be a positive whole number, but is {value!r}.")
+    if not right or value < least:
+        raise ValueError(
+            f"`{key}` must be a whole number, {least} or above, but is {value!r}."
+        )
     return int(value)
 
 
@@ -46,6 +48,44 @@ def spectrum(key: str, value: Any) -> Float[np.ndarray, "..."]:
             f"but is {value!r}."
         )
     return array
+
+
+def angles(key: str, value: Any) -> Float[np.ndarray, " angle"]:
+    """A list of one or more angles in degrees.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    array = np.atleast_1d(_numbers(key, value))
+    if array.ndim > 1 or array.size == 0:
+        raise ValueError(f"`{key}` must be a list of angles, but is {value!r}.")
+    return array
+
+
+def polar_angles(key: str, value: Any) -> Float[np.ndarray, " angle"]:
+    """A list of one or more angles in degrees, all above the horizon.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    array = angles(key, value)
+    if np.any((array < 0) | (array >= 90)):
+        raise ValueError(
+            f"`{key}` must lie from 0 to below 90 degrees, but is {array.tolist()}."
+        )
+    return array
+
+
+def not_negative(key: str, value: Any) -> float:
+    """A finite number, zero or above.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    array = _numbers(key, value)
+    if array.ndim or array < 0:
+        raise ValueError(f"`{key}` must be one number not below 0, but is {value!r}.")
+    return float(array)
 
 
 def unit_vector(key: str, value: Any) -> Float[np.ndarray, "3"]:

@@ -1,0 +1,47 @@
+"""Goniometers: which pairs of directions an instrument measures."""
+
+import equinox as eqx
+import jax
+import numpy as np
+from jaxtyping import Float
+
+from brdffit.geometry import direction
+from brdffit.scene import values
+from brdffit.types import Vectors
+
+Degrees = Float[np.ndarray, " angle"]
+
+
+class Goniometer(eqx.Module):
+    """All combinations of three lists of angles, in degrees.
+
+    The light stands at azimuth 0. So ``phi`` 0 and 180 make the plane of incidence,
+    with the mirror direction at 180; every other ``phi`` leads out of it.
+
+    Attributes:
+        theta_i: Polar angles of the light, from 0 to below 90.
+        theta_o: Polar angles of the viewer, from 0 to below 90.
+        phi: Azimuths of the viewer.
+
+    Raises:
+        ValueError: A list is empty or not of numbers, or a polar angle out of range.
+    """
+
+    theta_i: Degrees
+    theta_o: Degrees
+    phi: Degrees
+
+    def __post_init__(self) -> None:
+        """Check the angles."""
+        self.theta_i = values.polar_angles("theta_i", self.theta_i)
+        self.theta_o = values.polar_angles("theta_o", self.theta_o)
+        self.phi = values.angles("phi", self.phi)
+
+    def directions(self) -> tuple[Vectors, Vectors]:
+        """Unit vectors ``wi`` and ``wo``; ``phi`` changes fastest, ``theta_i`` last."""
+        grid = np.meshgrid(self.theta_i, self.theta_o, self.phi, indexing="ij")
+        theta_i, theta_o, phi = (np.radians(angle.ravel()) for angle in grid)
+        with jax.enable_x64(True):
+            wi = np.asarray(jax.vmap(direction)(theta_i, np.zeros_like(phi)))
+            wo = np.asarray(jax.vmap(direction)(theta_o, phi))
+        return wi.astype(np.float32), wo.astype(np.float32)
