@@ -32,6 +32,16 @@ def beckmann(wh: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
     return jnp.exp(exponent) / (jnp.pi * alpha_x * alpha_y)
 
 
+def slope_gaussian(wh: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
+    r"""Gaussian of the slopes of ``wh``, 1 at the normal: the lobe of Ward's models.
+
+    $$E = \exp\Bigl(-\frac{(h_x/\alpha_x)^2 + (h_y/\alpha_y)^2}{h_z^2}\Bigr)$$
+    """
+    x, y, z = wh
+    u, v = x / (z * alpha_x), y / (z * alpha_y)
+    return jnp.exp(-(u * u + v * v))
+
+
 def ggx(wh: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
     r"""GGX (Trowbridge-Reitz): tails longer than Beckmann's.
 

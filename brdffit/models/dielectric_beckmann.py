@@ -12,7 +12,7 @@ from brdffit.types import Direction, Scalar, Spectrum
 
 
 class DielectricBeckmann(AbstractBRDF):
-    r"""Reflection at rough glass: Beckmann ndf, Smith masking, exact dielectric Fresnel.
+    r"""Reflection at rough glass: Beckmann ndf, Smith masking, dielectric Fresnel.
 
     $$f_r = k_s\,\frac{D(\omega_h)\,F(\omega_i\cdot\omega_h)\,
             G(\omega_i, \omega_o)}{4\cos\theta_i\cos\theta_o}$$
