@@ -1,0 +1,117 @@
+"""Samples laid out for the solver: components first, in blocks of equal size.
+
+Reductions over blocks keep memory flat and are summed in double precision; the size of
+a block is one of a few, so that another file seldom needs another compilation.
+"""
+
+import equinox as eqx
+import numpy as np
+from jaxtyping import Float, Int
+
+from brdffit.fit.residual import Residual
+from brdffit.samples import Samples
+from brdffit.types import AnyArray
+
+SIZE = 2048  # samples in a block: its rows fit into the second-level cache
+
+
+class Blocks(eqx.Module):
+    """Samples in blocks ``(block, component, ..., place)``.
+
+    Attributes:
+        wi, wo: Directions.
+        weight: What a unit of ``f_r`` adds to the value; one channel when all agree.
+        value: Observations.
+        scale: Factor of each residual: the root of its weight; 0 where masked.
+        cos_i, cos_o: Cosines a residual may use.
+        count: Number of blocks that hold samples.
+    """
+
+    wi: Float[AnyArray, "block 3 light place"]
+    wo: Float[AnyArray, "block 3 place"]
+    weight: Float[AnyArray, "block light channel_or_1 place"]
+    value: Float[AnyArray, "block channel place"]
+    scale: Float[AnyArray, "block channel_or_1 place"]
+    cos_i: Float[AnyArray, "block place"]
+    cos_o: Float[AnyArray, "block place"]
+    count: Int[AnyArray, ""]
+
+
+def usable(samples: Samples, residual: Residual) -> np.ndarray:
+    """Which values ``(N, C)`` a fit may use under a residual.
+
+    Left out: masked and non-finite values, values that no light reaches, directions at
+    or below the horizon, and values <= 0 where the residual takes a logarithm.
+    """
+    value, weight = np.asarray(samples.value), np.asarray(samples.weight)
+    lit = (samples.wi[..., 2] > 0)[..., None] & (weight > 0)
+    use = np.isfinite(value) & lit.any(axis=1) & (samples.wo[:, 2] > 0)[:, None]
+    if samples.mask is not None:
+        use &= samples.mask
+    if samples.sigma is not None:
+        use &= np.isfinite(samples.sigma) & (np.asarray(samples.sigma) > 0)
+    if residual.positive:
+        use &= np.where(np.isfinite(value), value, 0) > 0
+    return use
+
+
+def blocks(samples: Samples, use: np.ndarray, dtype: np.dtype) -> Blocks:
+    """Lay out the samples of which at least one value is used."""
+    rows = np.flatnonzero(use.any(axis=1))
+    samples, use = samples.take(rows), use[rows]
+    value = np.where(use, samples.value, 1)
+    scale = use.astype(float)
+    if samples.sigma is not None:
+        scale = np.where(use, scale / np.where(use, samples.sigma, 1), 0)
+    if samples.solid_angle is not None:
+        share = samples.solid_angle / samples.solid_angle.mean()
+        scale = scale * np.sqrt(share)[:, None]
+
+    up = (samples.wi[..., 2] > 0) & (samples.wo[:, 2] > 0)[:, None]
+    wi = np.where(up[..., None], samples.wi, [0.6, 0.0, 0.8])
+    weight = np.where(up[..., None], samples.weight, 0)
+
+    count, lights = len(samples), wi.shape[1]
+    number = -(-count // SIZE)
+    room = _bucket(number)
+
+    def lay(array, fill):
+        """``(N, ...)`` to ``(block, ..., place)``."""
+        padded = np.full((room * SIZE, *array.shape[1:]), fill, dtype)
+        padded[:count] = array
+        return np.moveaxis(padded.reshape(room, SIZE, *array.shape[1:]), 1, -1)
+
+    def lay_directions(w):
+        padded = np.tile(
+            np.array([0.6, 0.0, 0.8], dtype), (room * SIZE, *w.shape[1:-1], 1)
+        )
+        padded[:count] = w
+        return np.moveaxis(padded.reshape(room, SIZE, *w.shape[1:]), (1, -1), (-1, 1))
+
+    return Blocks(
+        wi=lay_directions(wi),
+        wo=lay_directions(samples.wo),
+        weight=lay(_once(weight), 1 / lights),
+        value=lay(value, 1),
+        scale=lay(_once(scale), 0),
+        cos_i=lay(samples.cosine, 0.8),
+        cos_o=lay(samples.wo[:, 2], 0.8),
+        count=np.asarray(number, np.int32),
+    )
+
+
+def _once(array: np.ndarray) -> np.ndarray:
+    """One channel instead of all when they agree."""
+    same = np.all(array == array[..., :1])
+    return array[..., :1] if same else array
+
+
+def _bucket(number: int) -> int:
+    """Blocks to make room for: one of few numbers, so that few programs are compiled.
+
+    Empty blocks cost memory but no time; beyond 64 they add a quarter at most.
+    """
+    room = 1
+    while room < number:
+        room = 4 * room if room < 64 else room + max(room // 4, 1)
+    return room

@@ -1,0 +1,147 @@
+"""The solution looked at: errors, bounds, costs under every residual, in words."""
+
+import math
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import optimistix as optx
+
+from brdffit.fit import structure
+from brdffit.fit.residual import RESIDUALS
+from brdffit.fit.search import Search
+from brdffit.fit.transforms import Layout, to_natural
+from brdffit.fit.uncertainty import uncertainty
+
+AT_BOUND = 1e-7  # distance from a bound, in widths of the interval
+STATUS = (
+    (optx.RESULTS.successful, "converged"),
+    (
+        optx.RESULTS.nonlinear_max_steps_reached,
+        "stopped at the largest number of steps before it converged",
+    ),
+    (optx.RESULTS.nonfinite, "stopped at a value that is not finite"),
+)
+
+
+def examine(
+    problem: structure.Problem,
+    found: Search,
+    held: list[int],
+    count: int,
+    known_sigma: bool,
+) -> dict[str, Any]:
+    """Facts about a solution, by the names of `FitResult`.
+
+    Args:
+        problem: The fit, with its samples in double precision.
+        found: The solution.
+        held: Places of parameters that were fixed.
+        count: Number of values used.
+        known_sigma: True when the weights are inverse variances.
+    """
+    layout, x = problem.layout, found.x
+    equations, tallies, natural, slopes = jax.tree.map(
+        np.asarray, _at(problem, jnp.asarray(x))
+    )
+    lower, upper = np.asarray(problem.lower), np.asarray(problem.upper)
+    near = AT_BOUND * (upper - lower)
+    fixed = np.isin(np.arange(len(x)), held)
+    low, high = ~fixed & (x <= lower + near), ~fixed & (x >= upper - near)
+    cost = float(equations.cost)
+    freedom = count - int(np.sum(~fixed & ~low & ~high))
+    variance = 1.0 if known_sigma else 2 * cost / max(freedom, 1)
+    known = layout.known
+    spans = np.array([p.upper - p.lower for p in known])
+    errors = uncertainty(
+        equations.hessian,
+        natural,
+        slopes,
+        spans,
+        fixed | low | high,
+        variance,
+        layout.labels,
+    )
+    errors.standard_errors[fixed] = 0.0
+    at_bound = {
+        layout.labels[i]: f"`{layout.labels[i]}` is at its {side} bound "
+        f"{getattr(known[i], side):g}."
+        for side, where in (("lower", low), ("upper", high))
+        for i in np.flatnonzero(where)
+    }
+    unknowns = len(x) - len(held) + (not known_sigma)
+    deviance = _deviance(cost, count, known_sigma)
+    return {
+        "parameters": _by_name(layout, natural),
+        "standard_errors": _by_name(layout, errors.standard_errors),
+        "labels": layout.labels,
+        "correlation": errors.correlation,
+        "at_bound": at_bound,
+        "undetermined": errors.undetermined,
+        "cost": cost,
+        "costs": {n: float(t[0]) for n, t in zip(RESIDUALS, tallies, strict=True)},
+        "rms": {
+            n: math.sqrt(2 * t[0] / max(t[1], 1))
+            for n, t in zip(RESIDUALS, tallies, strict=True)
+        },
+        "count": count,
+        "chi_square": 2 * cost if known_sigma else None,
+        "p_value": _p_value(2 * cost, freedom) if known_sigma else None,
+        "aicc": deviance
+        + 2 * unknowns
+        + 2 * unknowns * (unknowns + 1) / max(count - unknowns - 1, 1),
+        "bic": deviance + unknowns * math.log(count),
+        "converged": bool(found.status == optx.RESULTS.successful),
+        "status": _sentence(found),
+        "steps": found.steps,
+        "basins": found.basins,
+        "agreement": found.agreement,
+    }
+
+
+@eqx.filter_jit
+def _at(problem: structure.Problem, x):
+    """Normal equations, costs, values and their slopes at one point."""
+    places = tuple(range(x.shape[0]))
+
+    def natural(x):
+        return to_natural(problem.layout, x, places)
+
+    values, slopes = jax.jvp(natural, (x,), (jnp.ones_like(x),))
+    residuals = tuple(RESIDUALS.values())
+    equations = structure.stream(problem, x)
+    return equations, structure.costs(problem, x, residuals), values, slopes
+
+
+def _by_name(layout: Layout, vector: np.ndarray) -> dict[str, Any]:
+    """A float for each shared parameter, an array for each spectral one."""
+    return {
+        name: vector[list(layout.places[name])]
+        if known.spectral
+        else float(vector[layout.places[name][0]])
+        for name, known in layout.entries
+    }
+
+
+def _deviance(cost: float, count: int, known_sigma: bool) -> float:
+    """Minus twice the log-likelihood of Gaussian errors, up to a constant."""
+    if known_sigma:
+        return 2 * cost
+    return count * math.log(max(2 * cost / count, np.finfo(float).tiny))
+
+
+def _p_value(chi_square: float, freedom: int) -> float:
+    from scipy.special import gammaincc
+
+    return float(gammaincc(max(freedom, 1) / 2, chi_square / 2))
+
+
+def _sentence(found: Search) -> str:
+    outcome = next(words for result, words in STATUS if bool(found.status == result))
+    return (
+        f"The fit {outcome} after {found.steps} steps; "
+        f"{found.agreement:.0%} of the starts agree on this minimum"
+        f"{f' of {found.basins} met' if found.basins > 1 else ''}."
+    )

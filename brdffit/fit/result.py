@@ -1,0 +1,153 @@
+"""What a fit returns: the material, how sure it is, and how it was reached."""
+
+import dataclasses
+import json
+import math
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from brdffit.files import replacing
+from brdffit.models import MODELS, AbstractBRDF
+from brdffit.parameters import parameters
+
+
+@dataclasses.dataclass(frozen=True)
+class FitResult:
+    """A fitted model.
+
+    Attributes:
+        brdf: The fitted model.
+        model: Its name.
+        parameters: Values by name: a float, or an array with one value per channel.
+        standard_errors: One standard deviation of each, in the same shape; infinite
+            where undetermined. For a parameter at its bound the error it would have if
+            it were free.
+        labels: Name of each row of `correlation`, in the order of `parameters`.
+        correlation: Correlation of the errors; 0 for parameters at a bound or
+            undetermined.
+        at_bound: Sentence per parameter that sits on a bound of its legal interval.
+        undetermined: Sentence per parameter that the data cannot tell.
+        residual: Name of the residual that was minimised.
+        cost: Half the weighted sum of squares of that residual.
+        costs: The same under every residual, at this solution.
+        rms: Root of the mean square under every residual.
+        count: Number of values used (samples times channels).
+        masked: Number of values left out.
+        chi_square: Sum of squares over known variances, or None when unknown.
+        p_value: Probability of a larger one if the model is right, or None.
+        aicc: Akaike's criterion, corrected for small samples.
+        bic: Schwarz's criterion.
+        converged: True when the solver met its tolerance.
+        status: The outcome as a sentence.
+        steps: Solver steps of the winning start.
+        starts: Number of starts.
+        basins: Number of distinct minima that the starts ended in.
+        agreement: Share of starts that ended in the best one.
+        path: How the fit was solved: which structure was found and used.
+        seconds: Time taken, compilation included.
+        data: Name of the measurement.
+        channels: Names of the channels.
+    """
+
+    brdf: AbstractBRDF
+    model: str
+    parameters: dict[str, Any]
+    standard_errors: dict[str, Any]
+    labels: tuple[str, ...]
+    correlation: np.ndarray
+    at_bound: dict[str, str]
+    undetermined: dict[str, str]
+    residual: str
+    cost: float
+    costs: dict[str, float]
+    rms: dict[str, float]
+    count: int
+    masked: int
+    chi_square: float | None
+    p_value: float | None
+    aicc: float
+    bic: float
+    converged: bool
+    status: str
+    steps: int
+    starts: int
+    basins: int
+    agreement: float
+    path: str
+    seconds: float
+    data: str
+    channels: tuple[str, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the model object, in types that JSON knows."""
+        fields = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        del fields["brdf"]
+        return {name: _plain(value) for name, value in fields.items()}
+
+    def save(self, path: str | os.PathLike) -> None:
+        """Write the result as JSON, which `load_result` reads back."""
+        options = {
+            f.name: getattr(self.brdf, f.name)
+            for f in dataclasses.fields(self.brdf)
+            if f.metadata.get("static")
+        }
+        text = json.dumps(self.to_dict() | {"options": options}, indent=2)
+        with replacing(Path(path)) as temporary:
+            temporary.write_text(text + "\n")
+
+
+def load_result(path: str | os.PathLike) -> FitResult:
+    """Read a result written by `FitResult.save`.
+
+    Raises:
+        OSError: The file cannot be read.
+        ValueError: It is not a result of this package.
+    """
+    path = Path(path)
+    try:
+        fields = json.loads(path.read_text())
+        model = MODELS[fields["model"]]
+        options = fields.pop("options")
+        arrays = {n: _array(v) for n, v in fields["parameters"].items()}
+        fields["parameters"] = arrays
+        errors = fields["standard_errors"].items()
+        fields["standard_errors"] = {n: _array(v) for n, v in errors}
+        fields["correlation"] = np.array(fields["correlation"])
+        for name in ("labels", "channels"):
+            fields[name] = tuple(fields[name])
+        for name in ("aicc", "bic"):
+            fields[name] = _number(fields[name])
+        brdf = model(**{n: arrays[n] for n in parameters(model)}, **options)
+        return FitResult(brdf=brdf, **fields)
+    except (json.JSONDecodeError, UnicodeDecodeError, KeyError, TypeError) as error:
+        raise ValueError(
+            f"File `{path}` must be a result saved by brdffit, but it cannot be read "
+            f"as one ({type(error).__name__}: {error})."
+        ) from error
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _plain(v) for name, v in value.items()}
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [_plain(v) for v in value]
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)  # JSON has no infinity
+    return value
+
+
+def _array(value: Any) -> Any:
+    if isinstance(value, list):
+        return np.array([_number(v) for v in value])
+    return _number(value)
+
+
+def _number(value: Any) -> float:
+    return float(value)

@@ -1,0 +1,166 @@
+"""From many starts to the best minimum: sort out on few samples, finish on all."""
+
+from collections.abc import Callable
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import optimistix as optx
+from jaxtyping import Array, Bool, Float, Int
+
+from brdffit.fit import structure
+from brdffit.fit.blocks import blocks
+from brdffit.fit.solve import BoundedLevenbergMarquardt
+from brdffit.samples import Samples
+
+RTOL = {"float64": 1e-12, "float32": 1e-9}
+SCREEN = 4096  # samples on which many starts are sorted out
+FINALISTS = 3  # minima that are finished on all samples
+SAME_BASIN = 1e-3  # relative difference in cost below which two minima are one
+
+
+class Minima(eqx.Module):
+    """Where starts ended.
+
+    Attributes:
+        x: All parameters in solver coordinates.
+        cost: Half the weighted sum of squares.
+        steps: Solver steps taken.
+        status: Outcome of each solve.
+    """
+
+    x: Float[Array, "start n"]
+    cost: Float[Array, " start"]
+    steps: Int[Array, " start"]
+    status: optx.RESULTS
+
+
+class Search(eqx.Module):
+    """The outcome of a search.
+
+    Attributes:
+        x: The best point found.
+        steps: Steps of the solve that found it.
+        status: Its outcome.
+        basins: Number of distinct minima met.
+        agreement: Share of starts that ended in the best one.
+    """
+
+    x: np.ndarray
+    steps: int
+    status: optx.RESULTS
+    basins: int
+    agreement: float
+
+
+def search(
+    problem: Callable[..., structure.Problem],
+    samples: Samples,
+    use: Bool[np.ndarray, "sample channel"],
+    starts: Float[np.ndarray, "start n"],
+    precision: str,
+    max_steps: int,
+) -> Search:
+    """Solve from all starts and return the best minimum.
+
+    With many samples all starts run on a share of them, which tells their basins apart,
+    and only the best few are finished on all.
+
+    Args:
+        problem: Everything but the samples; called with ``blocks``.
+        samples: What to explain.
+        use: Which values count.
+        starts: Starting points in solver coordinates.
+        precision: Precision in which models are evaluated.
+        max_steps: Steps after which a start gives up.
+    """
+    dtype, rtol = np.dtype(precision), RTOL[precision]
+    rows = np.flatnonzero(use.any(axis=1))
+    met = None
+    if len(rows) > SCREEN and len(starts) > 1:
+        few = _screen(samples, rows)
+        sample = problem(blocks=blocks(samples.take(few), use[few], dtype))
+        met = solve(sample, jnp.asarray(starts), rtol, max_steps)
+        # always as many, so that one program serves: the best stands in for absent ones
+        finalists = np.resize(_distinct(np.asarray(met.cost))[:FINALISTS], FINALISTS)
+        starts = np.asarray(met.x)[finalists]
+    whole = problem(blocks=blocks(samples, use, dtype))
+    final = solve(whole, jnp.asarray(starts), rtol, max_steps)
+    met = final if met is None else met
+    cost = np.asarray(met.cost)
+    best = int(np.nanargmin(final.cost))
+    return Search(
+        x=np.asarray(final.x[best]),
+        steps=int(final.steps[best]),
+        status=jax.tree.map(lambda leaf: leaf[best], final.status),
+        basins=len(_distinct(cost)),
+        agreement=float(np.mean(cost <= np.nanmin(cost) * (1 + SAME_BASIN) + 1e-300)),
+    )
+
+
+def _screen(samples: Samples, rows: np.ndarray) -> np.ndarray:
+    """Rows that stand for all: every so-manieth, and more of the brightest."""
+    bright = rows[
+        np.argsort(np.nansum(samples.value[rows], axis=1))[-len(rows) // 20 :]
+    ]
+    share = SCREEN // 4
+    even = rows[:: -(-len(rows) // (SCREEN - share))]
+    return np.union1d(even, bright[:: max(1, len(bright) // share)][:share])
+
+
+def _distinct(cost: np.ndarray) -> np.ndarray:
+    """Index of one start per basin, the best first."""
+    order = np.argsort(cost)
+    level = cost[order]
+    new = np.ones(len(order), bool)
+    new[1:] = level[1:] > level[:-1] * (1 + SAME_BASIN) + 1e-300
+    return order[new & np.isfinite(level)]
+
+
+@eqx.filter_jit
+def solve(
+    problem: structure.Problem, starts: Array, rtol: float, max_steps: int
+) -> Minima:
+    """Solve from every start at once.
+
+    Where the residual is affine the solver sees the nonlinear parameters alone;
+    otherwise it sees all, and the linear ones start where they fit best.
+    """
+    nonlinear, layout = problem.nonlinear_places, problem.layout
+    linear_places = layout.channel_places(layout.linear)
+    projected = problem.residual.affine
+    seen = nonlinear if projected else np.arange(starts.shape[1])
+    options = {"lower": problem.lower[seen], "upper": problem.upper[seen]}
+    solver = BoundedLevenbergMarquardt(rtol)
+
+    def equations(x, problem):
+        if projected:
+            return structure.project(problem, x)
+        return structure.stream(problem, x), jnp.zeros((layout.channels, 0))
+
+    def from_start(x):
+        if not projected:
+            _, linear = structure.project(problem, x[nonlinear], derivatives=False)
+            x = x.at[linear_places].set(linear)
+        solution = optx.least_squares(
+            equations,
+            solver,
+            x[seen],
+            args=problem,
+            options=options,
+            has_aux=True,
+            max_steps=max_steps,
+            throw=False,
+        )
+        x = x.at[seen].set(solution.value)
+        if projected:
+            x = x.at[linear_places].set(solution.aux)
+        return Minima(
+            x=x,
+            cost=solution.state.equations.cost,
+            steps=solution.stats["num_steps"],
+            status=solution.result,
+        )
+
+    return jax.vmap(from_start)(starts)

@@ -1,0 +1,175 @@
+"""Many models on one measurement, under one residual, ranked."""
+
+import dataclasses
+import json
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from brdffit.files import replacing
+from brdffit.fit.blocks import usable
+from brdffit.fit.fit import default_residual, fit
+from brdffit.fit.residual import Residual
+from brdffit.fit.result import FitResult
+from brdffit.models import MODELS, AbstractBRDF
+from brdffit.parameters import registry_name
+from brdffit.render.shading import shade
+from brdffit.samples import Measurement, Samples, as_samples
+
+HELD_OUT = 0.2  # share of the directions that a fit never sees
+TIE = 2.0  # standard errors of the difference within which two models tie
+
+
+@dataclasses.dataclass(frozen=True)
+class Entry:
+    """One model of a comparison.
+
+    Attributes:
+        result: The fit to all directions.
+        held_out: Root mean square of the residual on directions that a second fit,
+            to the others, never saw.
+        tied: True when the difference from the winner on those directions is within
+            its noise.
+    """
+
+    result: FitResult
+    held_out: float
+    tied: bool
+
+
+@dataclasses.dataclass(frozen=True)
+class Comparison:
+    """Models ranked by their error on held-out directions, the best first.
+
+    Attributes:
+        entries: One per model.
+        residual: Name of the residual that was minimised and is ranked by.
+        held_out_count: Number of directions held out.
+        seed: Seed of the split.
+        data: Name of the measurement.
+    """
+
+    entries: tuple[Entry, ...]
+    residual: str
+    held_out_count: int
+    seed: int
+    data: str
+
+    @property
+    def best(self) -> FitResult:
+        """The fit of the winner."""
+        return self.entries[0].result
+
+    @property
+    def results(self) -> dict[str, FitResult]:
+        """The fit of each model, by its name, in the order of the ranking."""
+        return {entry.result.model: entry.result for entry in self.entries}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The comparison in types that JSON knows."""
+        return {
+            "data": self.data,
+            "residual": self.residual,
+            "held_out_count": self.held_out_count,
+            "seed": self.seed,
+            "ranking": [
+                {"held_out": entry.held_out, "tied": entry.tied}
+                | entry.result.to_dict()
+                for entry in self.entries
+            ],
+        }
+
+    def save(self, path: str | os.PathLike) -> None:
+        """Write the comparison as JSON."""
+        with replacing(Path(path)) as temporary:
+            temporary.write_text(json.dumps(self.to_dict(), indent=2) + "\n")
+
+
+def compare(
+    data: Measurement | Samples,
+    models: Sequence[str | AbstractBRDF] | None = None,
+    *,
+    residual: str | Residual | None = None,
+    starts: int = 16,
+    seed: int = 0,
+    on_model: Callable[[str], None] | None = None,
+) -> Comparison:
+    """Fit many models to one measurement and rank them.
+
+    Each model is fitted twice under the same residual: to all directions, which gives
+    its parameters and criteria, and to four fifths of them, which gives its error on
+    the rest. The split is the same for all models.
+
+    Args:
+        data: What to explain.
+        models: Names or models; all of the catalogue by default.
+        residual: As for `fit`.
+        starts: As for `fit`.
+        seed: Seed of the split into seen and held-out directions.
+        on_model: Called with the name of each model before it is fitted.
+
+    Returns:
+        The ranking. Models within the noise of the winner are marked as tied with it.
+
+    Raises:
+        ValueError: As for `fit`, or fewer than five usable directions.
+    """
+    samples = as_samples(data)
+    chosen = default_residual(data, residual)
+    use = usable(samples, chosen)
+    rows = np.flatnonzero(use.any(axis=1))
+    if len(rows) < 5:
+        raise ValueError(
+            f"Data `{samples.name}` must have at least 5 usable directions to hold "
+            f"some out, but has {len(rows)}."
+        )
+    shuffled = np.random.default_rng(seed).permutation(rows)
+    unseen, seen = np.split(shuffled, [max(1, round(HELD_OUT * len(rows)))])
+    seen, unseen = np.sort(seen), np.sort(unseen)
+
+    options = {"residual": chosen, "starts": starts}
+    fitted = []
+    for model in models or list(MODELS):
+        if on_model:
+            on_model(model if isinstance(model, str) else registry_name(model))
+        result = fit(model, samples, **options)
+        blind = fit(model, samples.take(seen), **options)
+        squares = _squares(blind.brdf, samples.take(unseen), use[unseen], chosen)
+        fitted.append((result, squares))
+    fitted.sort(key=lambda pair: float(np.mean(pair[1])))
+    best = fitted[0][1]
+    return Comparison(
+        entries=tuple(
+            Entry(result, float(np.sqrt(np.mean(squares))), _tied(squares, best))
+            for result, squares in fitted
+        ),
+        residual=chosen.name,
+        held_out_count=len(unseen),
+        seed=seed,
+        data=samples.name,
+    )
+
+
+def _squares(brdf, samples: Samples, use: np.ndarray, residual: Residual) -> np.ndarray:
+    """Mean square of the residual of each direction, over its usable channels."""
+    cosines = jnp.asarray(samples.cosine)[:, None], jnp.asarray(samples.wo)[:, 2:]
+    value = jnp.asarray(np.where(use, samples.value, 1))
+    predicted = jax.jit(shade)(brdf, samples)
+    error = residual.transform(predicted, *cosines) - residual.transform(
+        value, *cosines
+    )
+    return np.sum(np.where(use, np.asarray(error) ** 2, 0), axis=1) / use.sum(axis=1)
+
+
+def _tied(squares: np.ndarray, best: np.ndarray) -> bool:
+    """True when the paired difference is within its own noise."""
+    difference = squares - best
+    if squares is best or len(difference) < 2:
+        return squares is best
+    noise = np.std(difference, ddof=1) / np.sqrt(len(difference))
+    return bool(np.mean(difference) <= TIE * noise)
