@@ -26,6 +26,7 @@ from brdffit.models.oren_nayar_full import OrenNayarFull as OrenNayarFull
 from brdffit.models.phong import Phong as Phong
 from brdffit.models.phong_original import PhongOriginal as PhongOriginal
 from brdffit.models.student_t import StudentT as StudentT
+from brdffit.models.sum import Sum as Sum
 from brdffit.models.ward import Ward as Ward
 from brdffit.models.ward_bounded import WardBounded as WardBounded
 from brdffit.models.ward_duer import WardDuer as WardDuer

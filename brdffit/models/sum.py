@@ -1,0 +1,51 @@
+"""Two reflectance models added."""
+
+from typing import ClassVar
+
+import equinox as eqx
+
+from brdffit.models.base import AbstractBRDF
+from brdffit.models.ggx_lobe import GGXLobe
+from brdffit.models.lambert import Lambert
+from brdffit.types import Direction, Spectrum
+
+
+class Sum(AbstractBRDF):
+    r"""Two models side by side, neither attenuating the other; ``a + b`` builds it.
+
+    $$f_r = f_1 + f_2$$
+
+    Parameters carry the name of their part, as in ``first.albedo``; a part may be a sum
+    in turn.
+
+    Range:
+        As the parts. The sum is reciprocal when both are (the default pair is), and
+        conserves energy only where the two albedos add to at most 1: the default pair
+        does not at grazing angles, where the gloss reflects all.
+
+    Source:
+        One lobe beside another as fitted to measured reflectance by A. Ngan, F. Durand
+        and W. Matusik, "Experimental Analysis of BRDF Models", EGSR 2005,
+        https://doi.org/10.2312/EGWR/EGSR05/117-126
+
+    Raises:
+        ValueError: Parts with different numbers of channels.
+    """
+
+    first: AbstractBRDF = eqx.field(default_factory=Lambert)
+    second: AbstractBRDF = eqx.field(default_factory=GGXLobe)
+
+    reciprocal: ClassVar[bool] = True
+    energy_conserving: ClassVar[bool] = False
+
+    def __check_init__(self) -> None:
+        """Refuse parts that do not have the same channels."""
+        if self.first.channels != self.second.channels:
+            raise ValueError(
+                "Both parts of a sum must have the same number of channels, but "
+                f"`first` has {self.first.channels} and `second` "
+                f"{self.second.channels}."
+            )
+
+    def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
+        return self.first.evaluate(wi, wo) + self.second.evaluate(wi, wo)
