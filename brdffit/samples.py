@@ -1,10 +1,11 @@
-"""Samples: the data every reader and every geometry pass returns and every fit consumes.
+"""Samples: what every reader and every geometry pass returns and every fit consumes.
 
 Arrays keep the precision of their file and may be numpy's or jax's; nothing here
 computes.
 """
 
 import dataclasses
+from collections.abc import Sequence
 
 import equinox as eqx
 import numpy as np
@@ -130,7 +131,7 @@ class Measurement(eqx.Module):
 
 
 def as_samples(data: Samples | Measurement) -> Samples:
-    """A measurement seen as samples with one light of unit weight; samples unchanged."""
+    """A measurement as samples with one light of unit weight; samples unchanged."""
     if isinstance(data, Samples):
         return data
     count, channels = data.f_r.shape
@@ -145,6 +146,34 @@ def as_samples(data: Samples | Measurement) -> Samples:
         solid_angle=data.solid_angle,
         channels=data.channels or default_channels(channels),
         name=data.name,
+    )
+
+
+def join(parts: Sequence[Samples]) -> Samples:
+    """Samples of several images as one; frames of each follow those of the one before.
+
+    All must have the same number of lights and channels and the same size of image.
+    """
+    first = parts[0]
+
+    def together(name: str) -> np.ndarray | None:
+        arrays = [getattr(part, name) for part in parts]
+        return None if arrays[0] is None else np.concatenate(arrays)
+
+    names = ("wi", "wo", "weight", "cosine", "value", "sigma", "mask", "solid_angle")
+    pixels = [part.pixels for part in parts if part.pixels is not None]
+    frames = np.cumsum([0, *(where.shape[0] for where in pixels)])
+    shifted = [
+        where.frame + start for where, start in zip(pixels, frames, strict=False)
+    ]
+    where = pixels and Pixels(
+        np.concatenate(shifted),
+        np.concatenate([where.row for where in pixels]),
+        np.concatenate([where.column for where in pixels]),
+        (int(frames[-1]), *pixels[0].shape[1:]),
+    )
+    return dataclasses.replace(
+        first, **{name: together(name) for name in names}, pixels=where or None
     )
 
 

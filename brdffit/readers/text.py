@@ -81,9 +81,8 @@ def refuse_cut_number(path: Path) -> None:
         *others, last = stream.read(TAIL).split(b"\n")
     decimals = {len(line.rstrip().rpartition(b".")[2]) for line in others[-20:]}
     if last and len(decimals) == 1 and len(last.rpartition(b".")[2]) < min(decimals):
-        raise ValueError(
-            f"File `{path}` is cut off within its last number, `{last.decode(errors='replace')}`."
-        )
+        end = last.decode(errors="replace")
+        raise ValueError(f"File `{path}` is cut off within its last number, `{end}`.")
 
 
 class Words:

@@ -1,7 +1,8 @@
 """Which numbers of a file may be used; the last step of every reader.
 
-The reader keeps every number of its file. What cannot be a reflectance is masked: NaN
-and infinity, negative values, and directions at or below the horizon.
+The reader keeps every number of its file. What cannot be used is masked: NaN and
+infinity, directions at or below the horizon, and, where the number is a reflectance and
+not a radiance with noise, negative values.
 """
 
 from pathlib import Path
@@ -10,39 +11,49 @@ from typing import Any
 import numpy as np
 
 from brdffit.samples import Measurement
+from brdffit.types import Mask, Values, Vectors
 
 HORIZON = 1e-6  # cosine; 90 degrees is 6e-17 after rounding, and is at the horizon
 
 
 def measurement(
     path: Path | str,
-    wi: np.ndarray,
-    wo: np.ndarray,
-    f_r: np.ndarray,
-    known: np.ndarray | None = None,
+    wi: Vectors,
+    wo: Vectors,
+    f_r: Values,
+    known: Mask | None = None,
     **details: Any,
 ) -> Measurement:
     """A measurement whose mask is False where a value must not be used.
 
     Args:
         path: File that the numbers come from, for the error.
-        wi: Directions to the light ``(N, 3)``.
-        wo: Directions to the viewer ``(N, 3)``.
-        f_r: Reflectance ``(N, C)``.
-        known: False where the file itself says that it has no data, ``(N, C)``.
+        wi: Directions to the light.
+        wo: Directions to the viewer.
+        f_r: Reflectance.
+        known: False where the file itself says that it has no data.
         details: Other fields of `Measurement`.
 
     Raises:
         ValueError: No value can be used.
     """
     mask = np.isfinite(f_r) & (f_r >= 0)
-    mask &= ((wi[:, 2] > HORIZON) & (wo[:, 2] > HORIZON))[:, None]
+    mask &= (above_horizon(wi) & above_horizon(wo))[:, None]
     if known is not None:
         mask &= known
+    refuse_unusable(path, mask)
+    return Measurement(wi=wi, wo=wo, f_r=f_r, mask=mask, **details)
+
+
+def above_horizon(w: Vectors) -> np.ndarray:
+    """Whether directions ``(..., 3)`` lie above the horizon, by more than rounding."""
+    return np.asarray(w[..., 2] > HORIZON)
+
+
+def refuse_unusable(path: Path | str, mask: Mask) -> None:
+    """Refuse a file all of whose values are masked."""
     if not mask.any():
         raise ValueError(
-            f"File `{path}` holds no reflectance that can be used: all of its "
-            f"{mask.size} values are missing, not finite, negative or below the "
-            f"horizon."
+            f"`{path}` holds no value that can be used: all {mask.size} are missing, "
+            f"not finite, negative, saturated, or have a direction below the horizon."
         )
-    return Measurement(wi=wi, wo=wo, f_r=f_r, mask=mask, **details)
