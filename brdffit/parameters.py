@@ -61,6 +61,7 @@ def parameter(
     """Declare a model field that can be fitted; see `Parameter` for the meaning."""
     return eqx.field(
         default=default,
+        converter=as_float,
         metadata={
             "parameter": Parameter(
                 *bounds, typical, unit, symbol, spectral, linear, logarithmic
