@@ -1,5 +1,7 @@
 """Noise of a simulated measurement: stated, seeded, and known for every sample."""
 
+from functools import partial
+
 import equinox as eqx
 import numpy as np
 
@@ -22,15 +24,13 @@ class Noise(eqx.Module):
         ValueError: A standard deviation or the seed is negative or not a number.
     """
 
-    relative: float = 0.0
-    additive: float = 0.0
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        """Check the values."""
-        self.relative = values.not_negative("relative", self.relative)
-        self.additive = values.not_negative("additive", self.additive)
-        self.seed = values.whole("seed", self.seed, least=0)
+    relative: float = eqx.field(
+        default=0.0, converter=partial(values.not_negative, "relative")
+    )
+    additive: float = eqx.field(
+        default=0.0, converter=partial(values.not_negative, "additive")
+    )
+    seed: int = eqx.field(default=0, converter=partial(values.whole, "seed", least=0))
 
     def __call__(self, truth: Values) -> tuple[Values, Values | None]:
         """``truth`` with noise, and its standard deviation; None without any noise."""

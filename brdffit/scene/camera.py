@@ -4,6 +4,8 @@ The world is right-handed with y up. Rays pass through the centres of pixels; ro
 the top of the image.
 """
 
+from functools import partial
+
 import equinox as eqx
 import numpy as np
 from jaxtyping import Float
@@ -22,11 +24,9 @@ class Orthographic(eqx.Module):
         resolution: Rows and columns of the image.
     """
 
-    resolution: int = eqx.field(static=True)
-
-    def __post_init__(self) -> None:
-        """Check the resolution."""
-        self.resolution = values.whole("resolution", self.resolution, least=1)
+    resolution: int = eqx.field(
+        static=True, converter=partial(values.whole, "resolution", least=1)
+    )
 
     @property
     def shape(self) -> tuple[int, int]:

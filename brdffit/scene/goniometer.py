@@ -1,5 +1,7 @@
 """Goniometers: which pairs of directions an instrument measures."""
 
+from functools import partial
+
 import equinox as eqx
 import jax
 import numpy as np
@@ -27,15 +29,9 @@ class Goniometer(eqx.Module):
         ValueError: A list is empty or not of numbers, or a polar angle out of range.
     """
 
-    theta_i: Degrees
-    theta_o: Degrees
-    phi: Degrees
-
-    def __post_init__(self) -> None:
-        """Check the angles."""
-        self.theta_i = values.polar_angles("theta_i", self.theta_i)
-        self.theta_o = values.polar_angles("theta_o", self.theta_o)
-        self.phi = values.angles("phi", self.phi)
+    theta_i: Degrees = eqx.field(converter=partial(values.polar_angles, "theta_i"))
+    theta_o: Degrees = eqx.field(converter=partial(values.polar_angles, "theta_o"))
+    phi: Degrees = eqx.field(converter=partial(values.angles, "phi"))
 
     def directions(self) -> tuple[Vectors, Vectors]:
         """Unit vectors ``wi`` and ``wo``; ``phi`` changes fastest, ``theta_i`` last."""

@@ -1,5 +1,7 @@
 """Lights: from where, and how much of it."""
 
+from functools import partial
+
 import equinox as eqx
 import numpy as np
 from jaxtyping import Float
@@ -20,10 +22,9 @@ class Directional(eqx.Module):
             is negative.
     """
 
-    direction: Float[np.ndarray, "3"]
-    irradiance: Float[np.ndarray, "..."] = eqx.field(default=1.0)
-
-    def __post_init__(self) -> None:
-        """Check the values and restore the unit length of the direction."""
-        self.direction = values.unit_vector("direction", self.direction)
-        self.irradiance = values.spectrum("irradiance", self.irradiance)
+    direction: Float[np.ndarray, "3"] = eqx.field(
+        converter=partial(values.unit_vector, "direction")
+    )
+    irradiance: Float[np.ndarray, "..."] = eqx.field(
+        default=1.0, converter=partial(values.spectrum, "irradiance")
+    )

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 import equinox as eqx
 
@@ -9,6 +10,7 @@ from brdffit.scene import values
 from brdffit.scene.camera import Orthographic
 from brdffit.scene.lights import Directional
 from brdffit.scene.shapes import Sphere
+from brdffit.types import AnyArray
 
 
 class Scene(eqx.Module):
@@ -28,12 +30,12 @@ class Scene(eqx.Module):
     camera: Orthographic
     shape: Sphere
     lights: tuple[Directional, ...]
-    exposure: float = 1.0
+    exposure: float = eqx.field(
+        default=1.0, converter=partial(values.positive, "exposure")
+    )
 
-    def __post_init__(self) -> None:
+    def __check_init__(self) -> None:
         """Check what can be wrong about the whole."""
-        self.lights = tuple(self.lights)
-        self.exposure = values.positive("exposure", self.exposure)
         if not self.lights:
             raise ValueError("`lights` must hold at least one light.")
         sizes = {light.irradiance.shape for light in self.lights} - {()}
@@ -52,8 +54,8 @@ class Scene(eqx.Module):
 
 def lit_sphere(
     resolution: int = 256,
-    directions: Sequence[Sequence[float]] = ((-0.48, 0.6, 0.64),),
-    irradiance: float | Sequence[float] = math.pi,
+    directions: Sequence[values.Numbers] | AnyArray = ((-0.48, 0.6, 0.64),),
+    irradiance: values.Numbers = math.pi,
     exposure: float = 1.0,
 ) -> Scene:
     """A unit sphere that fills the frame, under equal directional lights.

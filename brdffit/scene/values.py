@@ -1,10 +1,15 @@
 """Values of a scene, checked once, with the name of the key in every complaint."""
 
 import numbers
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 from jaxtyping import Float
+
+from brdffit.types import AnyArray
+
+Numbers: TypeAlias = float | Sequence[Any] | AnyArray  # as users write them
 
 TOLERANCE = 1e-3  # how far from 1 the length of a direction may be
 
