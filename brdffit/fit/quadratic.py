@@ -7,6 +7,24 @@ from jaxtyping import Array, Bool, Float
 ROUNDS = 20
 
 
+def solve_positive(
+    matrix: Float[Array, "n n"], right: Float[Array, " n"]
+) -> Float[Array, " n"]:
+    """Solve with a small positive definite matrix, which needs no pivots.
+
+    Gauss-Jordan elimination in one short loop: a library call costs more to compile
+    and, batched, more to run than the handful of numbers is worth.
+    """
+
+    def eliminate(k, system):
+        row = system[k] / system[k, k]
+        rest = system - jnp.outer(system[:, k], row)
+        return jnp.where((jnp.arange(system.shape[0]) == k)[:, None], row, rest)
+
+    system = jnp.concatenate([matrix, right[:, None]], axis=1)
+    return jax.lax.fori_loop(0, matrix.shape[0], eliminate, system)[:, -1]
+
+
 def minimise_in_box(
     hessian: Float[Array, "n n"],
     gradient: Float[Array, " n"],
@@ -35,21 +53,21 @@ def minimise_in_box(
     def solve(free, at):
         matrix = jnp.where(free[:, None] & free[None, :], scaled, jnp.eye(size))
         fixed = jnp.where(free, 0.0, at)
-        right = jnp.where(free, -slope - scaled @ fixed, at)
-        return jnp.linalg.solve(matrix, right)
+        return solve_positive(matrix, jnp.where(free, -slope - scaled @ fixed, at))
 
     def improve(state):
-        round, _, free, d = state
-        pull = -(scaled @ d + slope)  # the multiplier of a held bound
-        aim = d + pull
+        rounds, _, free, at, _ = state
+        d = solve(free, at)
+        aim = d - (scaled @ d + slope)  # plus the multiplier of a held bound
         below, above = aim < low, aim > high
+        guess = ~(below | above)
         at = jnp.where(below, low, jnp.where(above, high, 0.0))
-        new_free = ~(below | above)
-        return round + 1, jnp.all(new_free == free), new_free, solve(new_free, at)
+        return rounds + 1, jnp.all(guess == free), guess, at, d
 
-    start = jnp.ones(size, bool)
-    state = (0, jnp.array(False), start, solve(start, jnp.zeros(size)))
-    _, _, free, d = jax.lax.while_loop(
-        lambda state: (state[0] < ROUNDS) & ~state[1], improve, state
+    nothing = jnp.zeros(size)
+    _, _, free, _, d = jax.lax.while_loop(
+        lambda state: (state[0] < ROUNDS) & ~state[1],
+        improve,
+        (0, jnp.array(False), jnp.ones(size, bool), nothing, nothing),
     )
     return jnp.clip(d, low, high) * unit, free

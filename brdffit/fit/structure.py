@@ -17,6 +17,8 @@ Two uses of the same rows:
   block by block into the Gram matrix without ever being stored.
 """
 
+from functools import partial
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -24,7 +26,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from brdffit.fit.blocks import Blocks
-from brdffit.fit.quadratic import minimise_in_box
+from brdffit.fit.quadratic import minimise_in_box, solve_positive
 from brdffit.fit.residual import Residual
 from brdffit.fit.transforms import Layout, to_natural
 from brdffit.models import AbstractBRDF
@@ -62,6 +64,20 @@ class Problem(eqx.Module):
         return np.array([p for n in self.layout.nonlinear for p in places[n]], int)
 
 
+@partial(jax.jit, static_argnums=0)
+def _reflectance(layout: Layout, channel: AbstractBRDF, linear, natural, wi, wo):
+    """``f_r (light, place)`` of one channel; traced once, differentiated often."""
+    spectral = {name: known.spectral for name, known in layout.entries}
+    values = {
+        name: natural[i : i + 1] if spectral[name] else natural[i]
+        for i, name in enumerate(layout.nonlinear)
+    }
+    values |= {name: linear[i : i + 1] for i, name in enumerate(layout.linear)}
+    brdf = replace(channel, values)
+    over_places = jax.vmap(brdf.evaluate, in_axes=(1, 1))
+    return jax.vmap(over_places, in_axes=(1, None))(wi, wo)[..., 0]
+
+
 def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
     """Rows ``C, B_1, ..`` (and their derivatives) of one channel, per light.
 
@@ -72,28 +88,21 @@ def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
     """
     layout = problem.layout
     places = tuple(layout.channel_places(layout.nonlinear)[0])
-    linear = jnp.zeros(len(layout.linear), x.dtype)
-    spectral = {name: known.spectral for name, known in layout.entries}
+    dtype = block.wi.dtype
+    zero = jnp.zeros(len(layout.linear), dtype)
+    each = jnp.eye(len(layout.linear), dtype=dtype)
 
     def basis(x):
-        natural = to_natural(layout, x, places) if places else x
         # cast after the map: bounds hold to the last digit of the data's precision
-        natural = natural.astype(block.wi.dtype)
-        values = {
-            name: natural[i : i + 1] if spectral[name] else natural[i]
-            for i, name in enumerate(layout.nonlinear)
-        }
+        natural = to_natural(layout, x, places).astype(dtype) if places else zero[:0]
 
         def reflectance(linear):
-            coefficients = {n: linear[i : i + 1] for i, n in enumerate(layout.linear)}
-            brdf = replace(channel, values | coefficients)
-            over_places = jax.vmap(brdf.evaluate, in_axes=(1, 1))
-            return jax.vmap(over_places, in_axes=(1, None))(block.wi, block.wo)[..., 0]
+            return _reflectance(
+                layout, channel, linear, natural, block.wi, block.wo
+            )
 
-        zero = linear.astype(block.wi.dtype)
-        along = jnp.eye(zero.shape[0], dtype=zero.dtype)
         rows = [reflectance(zero)]
-        rows += [jax.jvp(reflectance, (zero,), (e,))[1] for e in along]
+        rows += [jax.jvp(reflectance, (zero,), (e,))[1] for e in each]
         return jnp.stack(rows)
 
     if not derivatives or not places:
@@ -231,7 +240,8 @@ def _eliminate(gram, lower, upper, q: int, m: int, derivatives: bool):
         )
         ridge = 8 * jnp.finfo(gram.dtype).eps * jnp.eye(q)
         scaled = held * unit[:, None] * unit[None, :] + ridge
-        hessian -= (cross * unit) @ jnp.linalg.solve(scaled, (cross * unit).T)
+        solved = jax.vmap(solve_positive, (None, 0))(scaled, cross * unit)
+        hessian -= (cross * unit) @ solved.T
     return (cost, gradient, hessian), linear
 
 
