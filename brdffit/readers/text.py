@@ -73,14 +73,16 @@ def lines(path: Path | str) -> Iterator[Line]:
 def refuse_cut_number(path: Path) -> None:
     """Refuse a file that ends within a number, which would be read as another number.
 
-    It does when there is no line break at the end and all of the last lines but the
-    very last have numbers with equally many decimals.
+    It does when there is no line break at the end, the last rows before it all have
+    equally many decimals, and the very last has fewer.
     """
     with path.open("rb") as stream:
         stream.seek(max(0, path.stat().st_size - TAIL))
-        *others, last = stream.read(TAIL).split(b"\n")
-    decimals = {len(line.rstrip().rpartition(b".")[2]) for line in others[-20:]}
-    if last and len(decimals) == 1 and len(last.rpartition(b".")[2]) < min(decimals):
+        *rows, last = stream.read(TAIL).split(b"\n")
+    alike = [row for row in rows if len(row.split()) == len(last.split())][-20:]
+    decimals = {len(row.rstrip().rpartition(b".")[2]) for row in alike}
+    short = len(decimals) == 1 and len(last.rpartition(b".")[2]) < min(decimals)
+    if len(alike) > 8 and short:
         end = last.decode(errors="replace")
         raise ValueError(f"File `{path}` is cut off within its last number, `{end}`.")
 
@@ -123,12 +125,13 @@ class Words:
         word = self.word(expected)
         return self.line.number_from(word)
 
-    def numbers(self, expected: str, count: float | None = None) -> np.ndarray:
+    def numbers(self, expected: str, count: int | None = None) -> np.ndarray:
         """So many numbers; as many as the next word says when ``count`` is None."""
         if count is None:
-            count = self.number(f"the number of {expected}")
-            if not (count >= 1 and count == int(count)):
+            promised = self.number(f"the number of {expected}")
+            if not (promised >= 1 and promised.is_integer()):
                 raise self.line.error(f"the number of {expected} must be 1 or more.")
+            count = int(promised)
         found = array("d")
         while len(found) < count:
             found.append(self.number(f"number {len(found) + 1} of {expected}"))

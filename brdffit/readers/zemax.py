@@ -126,12 +126,12 @@ def read_directions(
     zero = np.zeros_like(turn + theta + a + r)
     # Where the light lies at azimuth 0 and the specular ray at azimuth 180 degrees:
     specular = directions(theta + zero, np.pi)
-    back = directions(np.pi / 2 - theta + zero, 0)
+    back = directions(np.pi / 2 - theta + zero, 0.0)
     aside = directions(np.pi / 2 + zero, np.pi / 2)
     cos_r, sin_r, a = np.cos(r)[..., None], np.sin(r)[..., None], a[..., None]
     wo = specular * cos_r + (back * np.cos(a) + aside * np.sin(a)) * sin_r
     # A sample that is turned sees the light turned the other way.
-    return rotate(directions(theta + zero, 0), -turn), rotate(wo, -turn)
+    return rotate(directions(theta + zero, 0.0), -turn), rotate(wo, -turn)
 
 
 def rotate(w: np.ndarray, phi: np.ndarray) -> np.ndarray:
