@@ -53,8 +53,10 @@ def ggx(wh: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
         EGSR 2007, eq. 33.
     """
     x, y, z = wh
-    u, v = x / alpha_x, y / alpha_y
-    q = (x * x + y * y + z * z) / (u * u + v * v + z * z)
+    # by the length, not its square: that overflows in the gradient
+    scale = 1 / numerics.norm_of(x, y, z)
+    u, v, w = x * (scale / alpha_x), y * (scale / alpha_y), z * scale
+    q = 1 / (u * u + v * v + w * w)
     return q * q / (jnp.pi * alpha_x * alpha_y)
 
 
@@ -71,9 +73,10 @@ def gtr1(wh: Direction, alpha: Scalar) -> Scalar:
         appendix B.2, eq. 4.
     """
     x, y, z = wh
-    across, along = x * x + y * y, z * z
-    profile = (across + along) / (alpha * alpha * along + across)
-    return profile * (alpha + 1) / (2 * jnp.pi * numerics.log_ratio(alpha))
+    scale = 1 / numerics.norm_of(x, y, z)
+    u, v, w = x * scale, y * scale, z * scale * alpha
+    peak = (alpha + 1) / (2 * jnp.pi * numerics.log_ratio(alpha))
+    return peak / (u * u + v * v + w * w)
 
 
 def blinn(wh: Direction, exponent: Scalar) -> Scalar:
