@@ -82,6 +82,8 @@ def load(path: Path | str) -> Measurement:
     path = Path(path)
     rows = text.lines(path)
     header, names = read_header(path, rows)
+    if len(set(words(names.text))) < len(words(names.text)):
+        raise names.error("a name stands twice.")
     table = read_body(path, rows, header, names)
     columns = dict(zip(words(names.text), table.T, strict=True))
     wi, wo = read_directions(columns, header, names)

@@ -61,8 +61,18 @@ def save(
         stream.write(",".join(columns) + "\n")
         for start in range(0, count, ROWS_AT_A_TIME):
             rows = slice(start, start + ROWS_AT_A_TIME)
-            words = [column[rows].astype(str).tolist() for column in columns.values()]
+            words = [shortest(column[rows]) for column in columns.values()]
             stream.writelines(",".join(row) + "\n" for row in zip(*words, strict=True))
+
+
+def shortest(numbers: np.ndarray) -> list[str]:
+    """Each number in the fewest digits that give it back.
+
+    The print mode is set here because a library may have changed it for the whole
+    process (colour-science does), and then numpy writes twelve digits.
+    """
+    with np.printoptions(legacy=False):
+        return numbers.astype(str).tolist()
 
 
 def vectors(name: str, directions: Vectors) -> dict[str, AnyArray]:
