@@ -120,7 +120,8 @@ def preview(image: Image, exposure: float = 1.0) -> UInt8[np.ndarray, "row colum
 
     Three channels are taken as RGB; of any other number the mean is shown as grey.
     """
-    import colour  # takes more than a second
+    with np.printoptions():  # which colour-science sets back to those of numpy 1.13
+        import colour  # takes more than a second
 
     image = np.asarray(image, np.float64) * exposure
     if image.shape[-1] != len(RGB):

@@ -187,3 +187,8 @@ def test_preview_is_an_8_bit_png(tmp_path):
     np.testing.assert_array_equal(
         source.read_image("uint8"), images.preview(picture() * np.float32(0.5))
     )
+
+
+def test_colour_science_leaves_the_way_numpy_prints_alone():
+    images.preview(picture())
+    assert str(np.float32(1 / 3)) == "0.33333334"

@@ -4,6 +4,7 @@ from brdffit.render.geometry_pass import local_samples as local_samples, trace a
 from brdffit.render.noise import NOISELESS as NOISELESS, Noise as Noise
 from brdffit.render.shading import render as render, shade as shade
 from brdffit.render.simulate import (
+    description as description,
     provenance as provenance,
     simulate_image as simulate_image,
     simulate_measurement as simulate_measurement,

@@ -32,17 +32,11 @@ def render(brdf: AbstractBRDF, scene: Scene) -> Image:
     Raises:
         ValueError: The lights have another number of channels than the BRDF.
     """
-    samples = trace(scene, channels(brdf))
+    samples = trace(scene, brdf.channels)
     assert samples.pixels is not None  # for the type checker
     return samples.pixels.images(
         np.asarray(compiled_shade(brdf, samples)), background=0.0
     )[0]
-
-
-def channels(brdf: AbstractBRDF) -> int:
-    """Number of channels of a BRDF."""
-    direction = jnp.array([0.0, 0.0, 1.0])
-    return jax.eval_shape(brdf, direction, direction).shape[0]
 
 
 compiled_shade = eqx.filter_jit(shade)

@@ -6,26 +6,32 @@ from typing import Any
 import numpy as np
 
 from brdffit.models.base import AbstractBRDF
-from brdffit.parameters import registry_name, values
+from brdffit.parameters import registry_name
 from brdffit.render.geometry_pass import trace
 from brdffit.render.noise import NOISELESS, Noise
-from brdffit.render.shading import channels, compiled_shade
+from brdffit.render.shading import compiled_shade
 from brdffit.samples import Measurement, Samples, as_samples, default_channels
 from brdffit.scene import Goniometer, Scene
 
 
 def simulate_image(
-    brdf: AbstractBRDF, scene: Scene, noise: Noise = NOISELESS
+    brdf: AbstractBRDF, scene: Scene, noise: Noise = NOISELESS, name: str = ""
 ) -> Samples:
     """Samples of an image of a scene, with values, standard deviations and mask.
 
     The mask is False where no light reaches, and where relative noise makes a value of
     zero certain: neither says anything about the BRDF.
 
+    Args:
+        brdf: The truth.
+        scene: Camera, shape and lights.
+        noise: What is added to the truth.
+        name: What is seen; by default the name of the model.
+
     Raises:
         ValueError: The lights have another number of channels than the BRDF.
     """
-    samples = trace(scene, channels(brdf))
+    samples = trace(scene, brdf.channels)
     value, sigma = noise(compiled_shade(brdf, samples))
     lit = np.asarray(samples.weight).any(axis=1)
     return dataclasses.replace(
@@ -33,47 +39,65 @@ def simulate_image(
         value=value,
         sigma=sigma,
         mask=lit if sigma is None else lit & (sigma > 0),
-        name=registry_name(brdf),
+        name=name or registry_name(brdf),
     )
 
 
 def simulate_measurement(
-    brdf: AbstractBRDF, goniometer: Goniometer, noise: Noise = NOISELESS
+    brdf: AbstractBRDF,
+    goniometer: Goniometer,
+    noise: Noise = NOISELESS,
+    name: str = "",
 ) -> Measurement:
     """What a goniometer would read off a surface with this BRDF.
 
     The mask is False where relative noise makes a value of zero certain.
+
+    Args:
+        brdf: The truth.
+        goniometer: Which pairs of directions are measured.
+        noise: What is added to the truth.
+        name: What is measured; by default the name of the model.
     """
     wi, wo = goniometer.directions()
-    count = channels(brdf)
-    unlit = np.zeros((len(wi), count), np.float32)
-    truth = compiled_shade(brdf, as_samples(Measurement(wi=wi, wo=wo, f_r=unlit)))
-    f_r, sigma = noise(truth)
-    return Measurement(
+    setup = Measurement(
         wi=wi,
         wo=wo,
-        f_r=f_r,
-        sigma=sigma,
-        mask=None if sigma is None else sigma > 0,
-        channels=default_channels(count),
-        name=registry_name(brdf),
+        f_r=np.full((len(wi), brdf.channels), np.nan, np.float32),
+        channels=default_channels(brdf.channels),
+        name=name or registry_name(brdf),
     )
+    f_r, sigma = noise(compiled_shade(brdf, as_samples(setup)))
+    mask = None if sigma is None else sigma > 0
+    return dataclasses.replace(setup, f_r=f_r, sigma=sigma, mask=mask)
 
 
 def provenance(brdf: AbstractBRDF, noise: Noise = NOISELESS) -> dict[str, Any]:
-    """The truth behind a simulation, for the file that stands beside it.
-
-    Parameters are as short as their precision allows.
-    """
-    return {
-        "model": registry_name(brdf),
-        "parameters": {
-            name: np.asarray(value).astype(str).astype(float).tolist()
-            for name, value in values(brdf).items()
-        },
+    """The truth behind a simulation, for the file that stands beside it."""
+    return description(brdf) | {
         "noise": {
             "relative": noise.relative,
             "additive": noise.additive,
             "seed": noise.seed,
-        },
+        }
     }
+
+
+def description(brdf: AbstractBRDF) -> dict[str, Any]:
+    """A BRDF in names and numbers, the parts of a sum each by itself.
+
+    Numbers are as short as their precision allows; options are told where they differ
+    from their default.
+    """
+    table: dict[str, Any] = {"model": registry_name(brdf)}
+    for field in dataclasses.fields(brdf):
+        value = getattr(brdf, field.name)
+        if isinstance(value, AbstractBRDF):
+            table[field.name] = description(value)
+        elif not field.metadata.get("static"):
+            with np.printoptions(legacy=False):
+                short = np.asarray(value).astype(str).astype(float).tolist()
+            table.setdefault("parameters", {})[field.name] = short
+        elif value != field.default:
+            table[field.name] = value
+    return table

@@ -5,6 +5,7 @@ import pytest
 from brdffit.models import MODELS
 from brdffit.render import (
     Noise,
+    description,
     provenance,
     render,
     simulate_image,
@@ -105,3 +106,17 @@ def test_provenance_tells_the_truth_in_short_numbers():
 def test_wrong_noise_is_named(wrong, sentence):
     with pytest.raises(ValueError, match=sentence):
         Noise(**wrong)
+
+
+def test_the_parts_of_a_sum_and_unusual_options_are_described():
+    lobe = MODELS["ggx_lobe"](f0=[0.04] * 3, alpha=0.1, separable=True)
+    told = description(MODELS["lambert"](albedo=[0.1, 0.2, 0.3]) + lobe)
+    assert told == {
+        "model": "sum",
+        "first": {"model": "lambert", "parameters": {"albedo": [0.1, 0.2, 0.3]}},
+        "second": {
+            "model": "ggx_lobe",
+            "parameters": {"f0": [0.04] * 3, "alpha": 0.1},
+            "separable": True,
+        },
+    }
