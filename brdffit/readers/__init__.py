@@ -13,7 +13,7 @@ and add its line below. The content decides, never the name of a file.
 from pathlib import Path
 from typing import Protocol
 
-from brdffit.readers import fred, sphere_exr, sphere_photos, table, zemax
+from brdffit.readers import fred, merl, sphere_exr, sphere_photos, table, zemax
 from brdffit.samples import Measurement, Samples
 
 HEAD = 65536  # bytes that a reader may look at to know its format
@@ -39,6 +39,7 @@ READERS: dict[str, Reader] = {
     "table": table,
     "fred": fred,
     "zemax": zemax,
+    "merl": merl,
     "sphere_exr": sphere_exr,
     "sphere_photos": sphere_photos,
 }
