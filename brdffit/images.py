@@ -64,15 +64,16 @@ def read(path: str | Path) -> Picture:
 
 
 def read_mask(path: str | Path) -> Bool[np.ndarray, "row column"]:
-    """True where any channel of an image, of any depth, is above zero.
+    """True where any colour of an image, of any depth, is above zero.
 
     Raises:
         OSError: The file is missing, empty, truncated or not an image.
     """
     path = _existing(path)
     exr = path.suffix.lower() == ".exr"
-    pixels, _ = _read_exr(path) if exr else _read_stored(path)
-    return np.asarray(pixels > 0).any(axis=-1)
+    pixels, channels = _read_exr(path) if exr else _read_stored(path)
+    colours = [i for i, name in enumerate(channels) if name != "A"]
+    return np.max(pixels[..., colours], axis=-1) > 0
 
 
 def write(path: str | Path, image: Image, channels: tuple[str, ...] = ()) -> None:
@@ -90,11 +91,12 @@ def write(path: str | Path, image: Image, channels: tuple[str, ...] = ()) -> Non
     """
     path = Path(path)
     suffix = path.suffix.lower()
+    image = np.asarray(image, np.float32)
     count = image.shape[-1]
     channels = channels or {1: ("Y",), 3: RGB}.get(count, tuple(map(str, range(count))))
     if suffix not in SUFFIXES:
         raise ValueError(_unknown_suffix(path))
-    if len(set(channels)) != count:
+    if not len(set(channels)) == len(channels) == count:
         raise ValueError(
             f"Image `{path}` must have a name for each of its {count} channels, but "
             f"has {', '.join(channels)}."
@@ -162,12 +164,12 @@ def _channel_order(name: str) -> list[tuple[int, str]]:
     return [(int(part) if part.isdigit() else 0, part) for part in parts]
 
 
-def _write_exr(path: Path, image: Image, channels: tuple[str, ...]) -> None:
+def _write_exr(path: Path, image: np.ndarray, channels: tuple[str, ...]) -> None:
     header = {
         "compression": OpenEXR.ZIP_COMPRESSION,
         "type": OpenEXR.scanlineimage,
     }
-    planes = np.moveaxis(np.asarray(image, np.float32), -1, 0)
+    planes = np.moveaxis(image, -1, 0)
     named = {n: np.ascontiguousarray(p) for n, p in zip(channels, planes, strict=True)}
     with replacing(path) as temporary:
         try:

@@ -81,6 +81,16 @@ def test_photographs_with_8_bits_are_refused_but_serve_as_masks(tmp_path):
     )
 
 
+def test_a_mask_is_where_a_colour_is_not_where_it_is_opaque(tmp_path):
+    image = picture(channels=4)
+    image[:, :, :3] = 0
+    image[2, 1, 1] = 0.5
+    images.write(tmp_path / "a.exr", image, ("R", "G", "B", "A"))
+    np.testing.assert_array_equal(
+        images.read_mask(tmp_path / "a.exr"), image[..., 1] > 0
+    )
+
+
 @pytest.mark.parametrize("suffix", [".exr", ".hdr", ".png", ".tif"])
 def test_truncated_files_give_one_sentence_and_decoders_are_quiet(
     tmp_path, capfd, suffix
@@ -138,9 +148,10 @@ def test_values_that_a_format_cannot_hold_are_refused(tmp_path, name, image, sen
     assert not list(tmp_path.iterdir())
 
 
-def test_channels_need_as_many_different_names(tmp_path):
+@pytest.mark.parametrize("channels", [("R", "G", "G"), ("R",), ("R", "G", "B", "B")])
+def test_channels_need_as_many_different_names(tmp_path, channels):
     with pytest.raises(ValueError, match="a name for each of its 3 channels"):
-        images.write(tmp_path / "a.exr", picture(), ("R", "G", "G"))
+        images.write(tmp_path / "a.exr", picture(), channels)
 
 
 @pytest.mark.parametrize("suffix", [".exr", ".png"])

@@ -38,7 +38,7 @@ from brdffit.scene.shapes import Sphere
 CAMERAS = {"orthographic": Orthographic}
 SHAPES = {"sphere": Sphere}
 LIGHTS = {"directional": Directional}
-KIND_OF = {
+KIND_OF: dict[type[eqx.Module], str] = {
     made: kind for kinds in (CAMERAS, SHAPES, LIGHTS) for kind, made in kinds.items()
 }
 

@@ -4,6 +4,7 @@ from functools import partial
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
@@ -36,8 +37,8 @@ class Goniometer(eqx.Module):
     def directions(self) -> tuple[Vectors, Vectors]:
         """Unit vectors ``wi`` and ``wo``; ``phi`` changes fastest, ``theta_i`` last."""
         grid = np.meshgrid(self.theta_i, self.theta_o, self.phi, indexing="ij")
-        theta_i, theta_o, phi = (np.radians(angle.ravel()) for angle in grid)
         with jax.enable_x64(True):
-            wi = np.asarray(jax.vmap(direction)(theta_i, np.zeros_like(phi)))
+            theta_i, theta_o, phi = (jnp.radians(angle.ravel()) for angle in grid)
+            wi = np.asarray(jax.vmap(direction)(theta_i, jnp.zeros_like(phi)))
             wo = np.asarray(jax.vmap(direction)(theta_o, phi))
         return wi.astype(np.float32), wo.astype(np.float32)
