@@ -6,6 +6,8 @@ replaces the argument before the singular operation, because ``jnp.where`` after
 would still multiply an infinite derivative by zero and return NaN.
 """
 
+import math
+
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -13,6 +15,10 @@ Real = Float[Array, "..."]
 
 # of log(1 + x) / x, highest power first
 LOG1P_SERIES = tuple((-1) ** n / (n + 1) for n in reversed(range(11)))
+# of arcsin(x) / x in powers of x^2, highest first
+ARCSIN_SERIES = tuple(
+    math.comb(2 * n, n) / (4**n * (2 * n + 1)) for n in reversed(range(11))
+)
 
 SQRT_PI = 1.7724538509055159
 
@@ -87,6 +93,16 @@ def log1p_ratio(x: Real) -> Real:
         series = series * near + coefficient
     apart = jnp.where(small, 1.0, x)
     return jnp.where(small, series, jnp.log1p(apart) / apart)
+
+
+def arcsin_ratio(sine: Real, cosine: Real) -> Real:
+    """Angle over its sine, at most a right angle: 1 at 0, where it is 0 / 0."""
+    small = sine < 0.2
+    square, series = sine * sine, jnp.zeros_like(sine)
+    for coefficient in ARCSIN_SERIES:
+        series = series * square + coefficient
+    apart = jnp.where(small, 1.0, sine)
+    return jnp.where(small, series, arctan2(apart, cosine) / apart)
 
 
 def cbrt(x: Real) -> Real:

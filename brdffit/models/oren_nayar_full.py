@@ -65,17 +65,20 @@ class OrenNayarFull(AbstractBRDF):
         ui, vi = numerics.divide(xi, sin_i), numerics.divide(yi, sin_i)
         uo, vo = numerics.divide(xo, sin_o), numerics.divide(yo, sin_o)
         cos_phi, sin_phi = ui * uo + vi * vo, ui * vo - vi * uo
+        together = xi * xo + yi * yo  # cos(phi) sin(alpha) sin(beta)
         sin_alpha, cos_alpha = jnp.maximum(sin_i, sin_o), jnp.minimum(cos_i, cos_o)
         sin_beta, cos_beta = jnp.minimum(sin_i, sin_o), jnp.maximum(cos_i, cos_o)
         alpha = 2 / jnp.pi * numerics.arctan2(sin_alpha, cos_alpha)
-        u = 2 / jnp.pi * numerics.arctan2(cos_beta, sin_beta)
+        rise = 2 / jnp.pi * numerics.arcsin_ratio(cos_beta, sin_beta)
+        u = rise * cos_beta
         beta = 1 - u  # both angles as fractions of a right angle
 
         variance = self.sigma * self.sigma
-        facing = u * (3 - 3 * u + u * u) - cos_alpha * cos_alpha / (1 + sin_alpha)
-        forward = 0.45 * jnp.where(cos_phi < 0, facing, sin_alpha)
+        facing = rise * (3 - 3 * u + u * u)
+        facing -= cos_alpha * cos_alpha / (cos_beta * (1 + sin_alpha))
+        facing = numerics.divide(facing, sin_alpha)
         sideways = 0.125 * (alpha * beta) ** 2 * sin_phi**2 / (1 + jnp.abs(cos_phi))
-        azimuthal = cos_phi * forward * sin_beta / cos_beta
+        azimuthal = 0.45 * together * jnp.where(together < 0, facing, 1 / cos_beta)
         azimuthal += sideways * (sin_i + sin_o) / (cos_i + cos_o)
         single = 1 - 0.5 * variance / (variance + 0.33)
         single += variance / (variance + 0.09) * azimuthal
