@@ -1,5 +1,6 @@
 """Values of a scene, checked once, with the name of the key in every complaint."""
 
+import math
 import numbers
 from collections.abc import Sequence
 from typing import Any, TypeAlias
@@ -12,6 +13,7 @@ from brdffit.types import AnyArray
 Numbers: TypeAlias = float | Sequence[Any] | AnyArray  # as users write them
 
 TOLERANCE = 1e-3  # how far from 1 the length of a direction may be
+ROUNDING = 1e-15  # and within which it is as good as 1 and left as it is
 
 
 def whole(key: str, value: Any, least: int) -> int:
@@ -102,13 +104,13 @@ def unit_vector(key: str, value: Any) -> Float[np.ndarray, "3"]:
     array = _numbers(key, value)
     if array.shape != (3,):
         raise ValueError(f"`{key}` must be three numbers, but is {value!r}.")
-    length = np.linalg.norm(array)
+    length = math.hypot(*array)
     if abs(length - 1) > TOLERANCE:
         raise ValueError(
             f"`{key}` must be a unit vector, but {array.tolist()} has length "
             f"{length:.6g}."
         )
-    return array / length
+    return array if abs(length - 1) < ROUNDING else array / length
 
 
 def _numbers(key: str, value: Any) -> Float[np.ndarray, "..."]:

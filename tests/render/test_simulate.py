@@ -63,6 +63,13 @@ def test_values_that_relative_noise_leaves_certain_are_masked():
     assert not noisy.mask.all()
 
 
+def test_lit_pixels_of_certain_zero_are_masked_in_images_too():
+    brdf = MODELS["phong"](diffuse=0.0, specular=0.5, exponent=5.0)
+    noisy = simulate_image(brdf, SCENE, Noise(relative=0.02))
+    np.testing.assert_array_equal(noisy.mask, noisy.value > 0)
+    assert (noisy.mask != (noisy.weight[:, 0] > 0)).any()
+
+
 def test_additive_noise_keeps_negative_values():
     noisy = simulate_measurement(GGX, GONIOMETER, Noise(additive=1.0))
     assert (noisy.f_r < 0).any()

@@ -9,6 +9,14 @@ def test_a_direction_gets_back_the_length_that_rounding_took():
     np.testing.assert_allclose(light.direction, np.full(3, 3**-0.5), rtol=1e-15)
 
 
+def test_a_direction_of_unit_length_is_left_as_it_is():
+    once = Directional([0.1, 0.2, 0.97468]).direction
+    np.testing.assert_array_equal(Directional(once).direction, once)
+    np.testing.assert_array_equal(
+        Directional([-0.48, 0.6, 0.64]).direction, [-0.48, 0.6, 0.64]
+    )
+
+
 @pytest.mark.parametrize("length", [0.0, 0.998, 1.002])
 def test_a_direction_of_another_length_is_refused(length):
     with pytest.raises(ValueError, match=rf"has length {length:g}\."):
