@@ -3,6 +3,7 @@
 The package reads from top to bottom; a module imports only from lines above its own:
 
     types, numerics        shapes; functions with finite gradients
+    files, names           files whole or absent; names looked up once
     geometry, parameters   directions; bounds, units and symbols
     microfacet             Fresnel, ndf, masking-shadowing
     models                 one BRDF per file
@@ -12,8 +13,9 @@ The package reads from top to bottom; a module imports only from lines above its
     render                 geometry pass, shading, images
     readers, writers       one file format per file
     fit                    residual -> solver -> result
-    plots                  one figure per file
-    cli                    the command line
+    plots                  one kind of figure per file
+    cache                  compiled programs, kept on disk
+    cli                    the command line, one command per file
 
 Names are loaded when first used, so that ``import brdffit`` costs nothing.
 """
@@ -25,29 +27,47 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
+    from brdffit.cache import enable_compilation_cache as enable_compilation_cache
     from brdffit.fit import FitResult as FitResult, fit as fit
     from brdffit.fit.result import load_result as load_result
     from brdffit.fit.select import Comparison as Comparison, compare as compare
     from brdffit.models import MODELS as MODELS, AbstractBRDF as AbstractBRDF
     from brdffit.readers import load as load
-    from brdffit.render import render as render
+    from brdffit.render import (
+        Noise as Noise,
+        render as render,
+        simulate_image as simulate_image,
+        simulate_measurement as simulate_measurement,
+    )
     from brdffit.samples import Measurement as Measurement, Samples as Samples
-    from brdffit.scene import load_scene as load_scene
+    from brdffit.scene import (
+        Goniometer as Goniometer,
+        Scene as Scene,
+        lit_sphere as lit_sphere,
+        load_scene as load_scene,
+    )
 
 _HOME = {
     "MODELS": "models",
     "AbstractBRDF": "models",
     "Comparison": "fit.select",
     "FitResult": "fit",
+    "Goniometer": "scene",
     "Measurement": "samples",
+    "Noise": "render",
     "Samples": "samples",
+    "Scene": "scene",
     "compare": "fit.select",
     "directional_albedo": "albedo",
+    "enable_compilation_cache": "cache",
     "fit": "fit",
+    "lit_sphere": "scene",
     "load": "readers",
     "load_result": "fit.result",
     "load_scene": "scene",
     "render": "render",
+    "simulate_image": "render",
+    "simulate_measurement": "render",
 }
 
 
