@@ -13,7 +13,20 @@ and add its line below. The content decides, never the name of a file.
 from pathlib import Path
 from typing import Protocol
 
-from brdffit.readers import fred, merl, sphere_exr, sphere_photos, table, zemax
+from brdffit.readers import (
+    astm,
+    curet,
+    fred,
+    lighttools,
+    merl,
+    nist_ptfe,
+    rgl,
+    sphere_exr,
+    sphere_photos,
+    table,
+    utia,
+    zemax,
+)
 from brdffit.samples import Measurement, Samples
 
 HEAD = 65536  # bytes that a reader may look at to know its format
@@ -33,6 +46,27 @@ class Reader(Protocol):
     def load(self, path: Path | str) -> Measurement | Samples:
         """Read it."""
         ...
+
+
+READERS: dict[str, Reader] = {
+    "table": table,
+    "fred": fred,
+    "zemax": zemax,
+    "lighttools": lighttools,
+    "astm": astm,
+    "nist_ptfe": nist_ptfe,
+    "curet": curet,
+    "merl": merl,
+    "rgl": rgl,
+    "utia": utia,
+    "sphere_exr": sphere_exr,
+    "sphere_photos": sphere_photos,
+}
+
+
+def load(self, path: Path | str) -> Measurement | Samples:
+    """Read it."""
+    ...
 
 
 READERS: dict[str, Reader] = {

@@ -70,6 +70,23 @@ def lines(path: Path | str) -> Iterator[Line]:
                 yield Line(path, number, stripped)
 
 
+def table(path: Path, rows: Iterator[Line], width: int) -> np.ndarray:
+    """The rest of a file as rows of ``width`` numbers, between commas or spaces.
+
+    Raises:
+        ValueError: A line has another number of numbers, or there is none.
+    """
+    numbers = array("d")
+    for row in rows:
+        found = row.numbers("," if "," in row.text else None)
+        if len(found) != width:
+            raise row.error(f"it must have {width} numbers, but has {len(found)}.")
+        numbers.extend(found)
+    if not numbers:
+        raise ValueError(f"File `{path}` ends before its numbers; it is cut off.")
+    return np.frombuffer(numbers).reshape(-1, width)
+
+
 def refuse_cut_number(path: Path) -> None:
     """Refuse a file that ends within a number, which would be read as another number.
 
