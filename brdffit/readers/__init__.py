@@ -64,21 +64,6 @@ READERS: dict[str, Reader] = {
 }
 
 
-def load(self, path: Path | str) -> Measurement | Samples:
-    """Read it."""
-    ...
-
-
-READERS: dict[str, Reader] = {
-    "table": table,
-    "fred": fred,
-    "zemax": zemax,
-    "merl": merl,
-    "sphere_exr": sphere_exr,
-    "sphere_photos": sphere_photos,
-}
-
-
 def load(path: Path | str) -> Measurement | Samples:
     """Read a measurement; the content of the file or folder decides its format.
 
@@ -108,14 +93,15 @@ def format_of(path: Path | str) -> str:
     for name, reader in READERS.items():
         if reader.matches(path, head):
             return name
-    hint = ""
-    for reader in READERS.values():
-        if path.suffix.lower() in reader.SUFFIXES:
-            hint += (
-                f" Its name ends like one of {reader.DESCRIPTION.partition(':')[0]}, "
-                f"which begins {reader.BEGINS}."
-            )
+    near = [r for r in READERS.values() if path.suffix.lower() in r.SUFFIXES]
+    hints = [f"{title(reader)} begins {reader.BEGINS}" for reader in near]
+    hint = f" Its name ends like {'; or '.join(hints)}." if near else ""
     raise ValueError(
         f"`{path}` is not a measurement that brdffit can read.{hint} It reads: "
-        f"{'; '.join(reader.DESCRIPTION for reader in READERS.values())}."
+        f"{', '.join(title(reader) for reader in READERS.values())}."
     )
+
+
+def title(reader: Reader) -> str:
+    """What a format is called."""
+    return reader.DESCRIPTION.partition(":")[0].partition(",")[0]

@@ -11,8 +11,6 @@ The noise of dark pairs makes some values negative; they are kept and masked.
 
 from pathlib import Path
 
-import numpy as np
-
 from brdffit.readers import text, validity
 from brdffit.readers.angles import directions
 from brdffit.samples import Measurement

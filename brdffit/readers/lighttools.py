@@ -75,8 +75,8 @@ def load(path: Path | str) -> Measurement:
     ]
     if missing or len(found) < len(blocks):
         raise ValueError(
-            f"LightTools file `{words.path}` must have one block for each incidence and "
-            f"channel, but has {len(blocks)} blocks for {len(incidence)} x "
+            f"LightTools file `{words.path}` must have one block for each incidence "
+            f"and channel, but has {len(blocks)} blocks for {len(incidence)} x "
             f"{len(channels)}."
         )
     theta_i, phi_i = np.deg2rad(incidence).T

@@ -18,7 +18,7 @@ from brdffit.readers import text, validity
 from brdffit.readers.angles import directions
 from brdffit.samples import Measurement
 
-DESCRIPTION = "NIST CSV: unpolarised reflectance of sintered PTFE"
+DESCRIPTION = "NIST CSV of sintered PTFE: unpolarised reflectance"
 SUFFIXES = (".csv",)
 BEGINS = "with the column names `lambda,thetai`"
 
