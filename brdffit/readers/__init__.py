@@ -11,7 +11,7 @@ and add its line below. The content decides, never the name of a file.
 """
 
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from brdffit.readers import (
     astm,
@@ -32,6 +32,7 @@ from brdffit.samples import Measurement, Samples
 HEAD = 65536  # bytes that a reader may look at to know its format
 
 
+@runtime_checkable
 class Reader(Protocol):
     """What a module of this folder must have."""
 
@@ -94,8 +95,8 @@ def format_of(path: Path | str) -> str:
         if reader.matches(path, head):
             return name
     near = [r for r in READERS.values() if path.suffix.lower() in r.SUFFIXES]
-    hints = [f"{title(reader)} begins {reader.BEGINS}" for reader in near]
-    hint = f" Its name ends like {'; or '.join(hints)}." if near else ""
+    hints = [f"{title(reader)}, which begins {reader.BEGINS}" for reader in near]
+    hint = f" Its name is like that of {'; or of '.join(hints)}." if near else ""
     raise ValueError(
         f"`{path}` is not a measurement that brdffit can read.{hint} It reads: "
         f"{', '.join(title(reader) for reader in READERS.values())}."

@@ -2,8 +2,8 @@
 
 The line ``VARS`` ends the header and names the columns, for instance
 ``theta_i,phi_i,theta_s,phi_s,R,G,B``, or wavelengths such as ``400nm`` instead of
-colours; ``s`` is the scattered direction. Both directions leave the surface, so the mirror direction of
-azimuth 0 is at pi. ``NUM_POINTS`` says how many lines follow.
+colours; ``s`` is the scattered direction. Both directions leave the surface, so the
+mirror direction of azimuth 0 is at pi. ``NUM_POINTS`` says how many lines follow.
 
 Cornell's files give angles in radians. A polar angle beyond pi/2 cannot be one of
 radians above the surface, so a file that has one is taken to be in degrees.
