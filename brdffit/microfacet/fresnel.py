@@ -68,7 +68,7 @@ def _dielectric_jvp(primals, tangents):
     ) * deta
 
 
-def _dielectric(c: Scalar, eta: Value) -> tuple[Value, ...]:
+def _dielectric(c: Scalar, eta: Value) -> tuple[jax.Array, ...]:
     """Whether reflection is total, ``g``, ``r_s``, ``r_p``, ``c+g``, ``eta^2 c+g``."""
     contrast = (eta - 1) * (eta + 1)
     under_root = contrast + c * c

@@ -110,7 +110,7 @@ def _area_beckmann_jvp(primals, tangents):
     return _area_beckmann(z, t), 0.5 * ((1 + erf) * dz + bell * dt)
 
 
-def _bell(z: Scalar, t: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+def _bell(z: Scalar, t: Scalar) -> tuple[jax.Array, ...]:
     """Whether all facets face ``w``, ``erf(z/t)`` and ``exp(-(z/t)^2)/sqrt(pi)``."""
     smooth = 20 * t < z
     cotangent = jnp.where(smooth, 20.0, z / jnp.where(smooth, 1.0, t))

@@ -69,6 +69,7 @@ class AshikhminShirley(AbstractBRDF):
 
     reciprocal: ClassVar[bool] = True
     energy_conserving: ClassVar[bool] = True
+    isotropic: ClassVar[bool] = False
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         wh = bisector(wi, wo)

@@ -59,6 +59,7 @@ class Banks(AbstractBRDF):
 
     reciprocal: ClassVar[bool] = True
     energy_conserving: ClassVar[bool] = False
+    isotropic: ClassVar[bool] = False
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         (ti, yi, zi), (to, yo, zo) = wi, wo

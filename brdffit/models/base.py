@@ -33,6 +33,7 @@ class AbstractBRDF(eqx.Module):
 
     reciprocal: ClassVar[bool]
     energy_conserving: ClassVar[bool]
+    isotropic: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         """Give all spectral parameters the same number of channels."""
@@ -69,6 +70,15 @@ class AbstractBRDF(eqx.Module):
         from brdffit.models.sum import Sum
 
         return Sum(self, other)
+
+    def lobe_axis(self, wi: Direction) -> Direction | None:
+        """Direction about which ``f_r(wi, .)`` is round, or None.
+
+        None, for a lobe about the half vector, unless a model says otherwise; rules of
+        integration need to know.
+        """
+        del wi
+        return None
 
     @abc.abstractmethod
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:

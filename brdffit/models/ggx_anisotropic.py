@@ -66,6 +66,7 @@ class GGXAnisotropic(AbstractBRDF):
 
     reciprocal: ClassVar[bool] = True
     energy_conserving: ClassVar[bool] = False
+    isotropic: ClassVar[bool] = False
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         wh = bisector(wi, wo)

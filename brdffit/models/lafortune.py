@@ -80,6 +80,13 @@ class Lafortune(AbstractBRDF):
 
     reciprocal: ClassVar[bool] = True
     energy_conserving: ClassVar[bool] = False
+    isotropic: ClassVar[bool] = False
+
+    def lobe_axis(self, wi: Direction) -> Direction:
+        x, y, z = wi
+        # the normal where all coefficients are 0 and there is no lobe
+        up = jnp.maximum(self.c_z * z, 1e-6 * z)
+        return numerics.normalize(jnp.stack([self.c_x * x, self.c_y * y, up]))
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         x, y = wi[0] * wo[0], wi[1] * wo[1]

@@ -5,7 +5,7 @@ from typing import ClassVar
 import jax.numpy as jnp
 
 from brdffit import numerics
-from brdffit.geometry import mirror_deficit
+from brdffit.geometry import mirror, mirror_deficit
 from brdffit.models.base import AbstractBRDF
 from brdffit.parameters import parameter
 from brdffit.types import Direction, Scalar, Spectrum
@@ -57,6 +57,9 @@ class Phong(AbstractBRDF):
 
     reciprocal: ClassVar[bool] = True
     energy_conserving: ClassVar[bool] = True
+
+    def lobe_axis(self, wi: Direction) -> Direction:
+        return mirror(wi)
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         lobe = numerics.pow_complement(mirror_deficit(wi, wo), self.exponent)

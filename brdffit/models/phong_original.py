@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from brdffit import numerics
-from brdffit.geometry import mirror_deficit
+from brdffit.geometry import mirror, mirror_deficit
 from brdffit.models.base import AbstractBRDF
 from brdffit.parameters import parameter
 from brdffit.types import Direction, Scalar, Spectrum
@@ -56,6 +56,9 @@ class PhongOriginal(AbstractBRDF):
 
     reciprocal: ClassVar[bool] = False
     energy_conserving: ClassVar[bool] = False
+
+    def lobe_axis(self, wi: Direction) -> Direction:
+        return mirror(wi)
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         lobe = numerics.pow_complement(mirror_deficit(wi, wo), self.exponent)

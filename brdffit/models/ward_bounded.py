@@ -67,6 +67,7 @@ class WardBounded(AbstractBRDF):
 
     reciprocal: ClassVar[bool] = True
     energy_conserving: ClassVar[bool] = True
+    isotropic: ClassVar[bool] = False
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         wh = bisector(wi, wo)

@@ -62,6 +62,7 @@ class WardDuer(AbstractBRDF):
 
     reciprocal: ClassVar[bool] = True
     energy_conserving: ClassVar[bool] = False
+    isotropic: ClassVar[bool] = False
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         lobe = ndf.slope_gaussian(bisector(wi, wo), self.alpha_x, self.alpha_y)
