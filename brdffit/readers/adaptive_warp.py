@@ -22,7 +22,7 @@ from jaxtyping import Float, Int
 
 Points = Float[np.ndarray, "point 2"]
 Numbers = Float[np.ndarray, " point"]
-Slices = tuple[Int[np.ndarray, "point corner"], Float[np.ndarray, "point corner"]]
+Slices = tuple[Int[np.ndarray, "#point corner"], Float[np.ndarray, "#point corner"]]
 
 
 class Table:

@@ -3,7 +3,7 @@
 import numpy as np
 
 
-def directions(theta: np.ndarray, phi: np.ndarray | float) -> np.ndarray:
+def directions(theta: np.ndarray | float, phi: np.ndarray | float) -> np.ndarray:
     """Unit vectors ``(..., 3)`` with polar angle ``theta``, azimuth ``phi`` (radians).
 
     Both broadcast. A negative polar angle leans the other way, as goniometers write it.

@@ -65,7 +65,7 @@ def load(path: Path | str) -> Measurement:
             f"LightTools file `{words.path}` holds no reflection at the front side."
         )
     incidence = list(dict.fromkeys(place(block) for block, _ in blocks))
-    channels = sorted({channel(block) for block, _ in blocks})
+    channels = tuple(dict.fromkeys(channel(block) for block, _ in blocks))
     found = {(place(block), channel(block)): values for block, values in blocks}
     missing = [
         (light, name)

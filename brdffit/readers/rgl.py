@@ -93,8 +93,8 @@ class Material:
         """
         self._path = Path(path)
         self._arrays = tensor_file.read(path)
-        self._theta_i = self._floats("theta_i", 1)
-        self._phi_i = self._floats("phi_i", 1)
+        self._theta_i = np.float64(self._floats("theta_i", 1))
+        self._phi_i = np.float64(self._floats("phi_i", 1))
         grid = (len(self._phi_i), len(self._theta_i))
         if "spectra" in self._arrays:
             wavelengths = self._floats("wavelengths", 1)
@@ -122,7 +122,8 @@ class Material:
         wi, wo = np.asarray(wi, np.float64), np.asarray(wo, np.float64)
         f_r = np.zeros((len(wi), len(self.channels)))
         seen = np.flatnonzero((wi[:, 2] > 0) & (wo[:, 2] > 0))
-        for rows in np.split(seen, range(AT_ONCE, len(seen), AT_ONCE)):
+        for start in range(0, len(seen), AT_ONCE):
+            rows = seen[start : start + AT_ONCE]
             f_r[rows] = self._evaluate(*self._folded(wi[rows], wo[rows]))
         return f_r
 
@@ -238,7 +239,7 @@ def angles(w: Vectors) -> tuple[np.ndarray, np.ndarray]:
     return 2 * np.arcsin(np.clip(chord / 2, 0, 1)), np.arctan2(y, x)
 
 
-def square(theta: np.ndarray, phi: np.ndarray) -> np.ndarray:
+def square(theta: np.ndarray | float, phi: np.ndarray | float) -> np.ndarray:
     """Points of the unit square for polar angles and azimuths."""
     return np.stack([np.sqrt(theta * 2 / np.pi), (phi + np.pi) / (2 * np.pi)], axis=-1)
 

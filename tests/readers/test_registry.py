@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import brdffit
-from brdffit.readers import READERS, format_of
+from brdffit.readers import READERS, format_of, title
 from brdffit.samples import Measurement, Samples
 from tests.readers.specimens import SPECIMENS
 
@@ -54,10 +54,10 @@ def test_missing_file_is_one_sentence(name, tmp_path):
 def test_unknown_content_lists_what_can_be_read_and_hints_by_the_name(tmp_path):
     path = tmp_path / "odd.bsdf"
     path.write_text("hello")
-    with pytest.raises(ValueError, match="ends like one of Zemax BSDF text") as error:
+    with pytest.raises(ValueError, match="is like that of Zemax BSDF text") as error:
         brdffit.load(path)
     for reader in READERS.values():
-        assert reader.DESCRIPTION in str(error.value)
+        assert title(reader) in str(error.value)
 
 
 def test_empty_file_is_one_sentence(tmp_path):
