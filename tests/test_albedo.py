@@ -171,7 +171,7 @@ def test_albedo_of_a_sum_is_the_sum_of_albedos():
 
 
 def test_albedo_has_a_gradient():
-        """The derivative by alpha is the limit of differences."""
+    """The derivative by alpha is the limit of differences."""
     wi = incident(60.0)
 
     def reflected(alpha):
