@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -29,3 +30,23 @@ def replacing(path: str | Path) -> Iterator[Path]:
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()
+
+
+def require_writable(folder: str | Path) -> None:
+    """Make sure that files can be written into a folder, before long work.
+
+    The folder need not exist yet, and nothing is left behind.
+
+    Raises:
+        OSError: It cannot be written, or not be made; the message says why.
+    """
+    folder = Path(folder)
+    existing = next(p for p in [folder, *folder.absolute().parents] if p.exists())
+    reason = f"`{existing}` is not a folder"
+    if existing.is_dir():
+        try:
+            with tempfile.TemporaryFile(dir=existing):
+                return
+        except OSError as error:
+            reason = f"in `{existing}`, {error.strerror or error}"
+    raise OSError(f"Folder `{folder}` cannot be written: {reason}.")

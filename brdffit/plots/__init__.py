@@ -1,0 +1,20 @@
+"""Figures, one kind per file; each file draws into given axes and makes a figure."""
+
+from brdffit.plots.album import album as album
+from brdffit.plots.lobe import lobe_figure as lobe_figure, plot_lobe as plot_lobe
+from brdffit.plots.plane import Plane as Plane, planes as planes
+from brdffit.plots.ranking import (
+    plot_errors as plot_errors,
+    plot_table as plot_table,
+    ranking_figure as ranking_figure,
+)
+from brdffit.plots.residuals import (
+    plot_residuals as plot_residuals,
+    residuals_figure as residuals_figure,
+)
+from brdffit.plots.spheres import (
+    plot_difference as plot_difference,
+    plot_sphere as plot_sphere,
+    spheres_figure as spheres_figure,
+)
+from brdffit.plots.style import save as save
