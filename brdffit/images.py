@@ -25,6 +25,8 @@ from brdffit.types import Image
 RGB = ("R", "G", "B")
 INTEGER = (".png", ".tif", ".tiff")
 SUFFIXES = (".exr", ".hdr", *INTEGER)
+SMALL = 50_000_000  # bytes of pixels that any file may unpack to
+MOST_PACKED = 50  # bytes of pixels for each byte of a larger file
 
 
 class Picture(NamedTuple):
@@ -145,6 +147,15 @@ def write_preview(path: str | Path, image: Image, exposure: float = 1.0) -> None
 def _read_exr(path: Path) -> Picture:
     try:
         with _silence():
+            header = OpenEXR.File(str(path), header_only=True).header()
+        low, high = np.asarray(header["dataWindow"], np.int64)
+        rows, columns = (int(n) for n in high - low + 1)
+        count = len(header["channels"])
+    except (RuntimeError, ValueError, TypeError, KeyError) as error:
+        raise OSError(f"Image `{path}` is not a complete EXR file.") from error
+    _refuse_bomb(path, rows * columns * count)
+    try:
+        with _silence():
             planes = OpenEXR.File(str(path), separate_channels=True).channels()
             pixels = {name: planes[name].pixels for name in planes}
     except (RuntimeError, ValueError, TypeError) as error:
@@ -187,12 +198,28 @@ def _read_stored(path: Path) -> tuple[np.ndarray, tuple[str, ...]]:
     keep_alpha["oiio:UnassociatedAlpha"] = 1
     with _silence():
         source = OpenImageIO.ImageInput.open(str(path), keep_alpha)
+        if source:
+            spec = source.spec()
+            _refuse_bomb(path, spec.width * spec.height * spec.nchannels)
         pixels = source.read_image(str(source.spec().format)) if source else None
         OpenImageIO.geterror()  # forget it, or it is printed at exit
     if source is None or pixels is None:
         kind = path.suffix[1:].upper()
         raise OSError(f"Image `{path}` is not a complete {kind} file.")
     return pixels, tuple(source.spec().channelnames)
+
+
+def _refuse_bomb(path: Path, numbers: int) -> None:
+    """Refuse a large image that its header makes, not its content.
+
+    Pixels of photographs and renders pack to a tenth, not to a hundredth.
+    """
+    size = path.stat().st_size
+    if 4 * numbers > max(SMALL, MOST_PACKED * size):
+        raise ValueError(
+            f"Image `{path}` claims {numbers} numbers, {4 * numbers // size} times "
+            "what the file holds; it is damaged or empty of content."
+        )
 
 
 def _write_stored(path: Path, image: np.ndarray) -> None:

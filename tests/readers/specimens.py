@@ -207,7 +207,7 @@ def rgl(folder, azimuths=1, wavelengths=(), parts=1):
 
     def table(*shape):
         array = rng.uniform(0.5, 1.5, shape).astype("f4")
-        if len(shape) > 2 and parts == 1:
+        if parts == 1:
             array[-1] = array[0]  # azimuths -pi and pi are the same
         return array
 
@@ -216,7 +216,7 @@ def rgl(folder, azimuths=1, wavelengths=(), parts=1):
         "description": np.frombuffer(b"a specimen", "u1"),
         "phi_i": phi_i,
         "theta_i": theta_i,
-        "sigma": table(4, 8) if azimuths > 1 else np.tile(table(1, 8), (2, 1)),
+        "sigma": table(4 if azimuths > 1 else 2, 8),
         "ndf": table(4, 8),
         "vndf": table(*grid, 8, 8),
         "luminance": table(*grid, 6, 6),
