@@ -52,11 +52,13 @@ def load(path: Path | str) -> Measurement:
     counts = np.diff([*starts, len(scattered)])
     theta_i, phi_i = np.repeat(lights * unit, counts, axis=0).T
     theta_o, phi_o = scattered[:, :2].T * unit
+    with np.errstate(over="ignore"):  # infinity is masked
+        f_r = scattered[:, 2:] * scale
     return validity.measurement(
         path,
         wi=directions(theta_i, phi_i),
         wo=directions(theta_o, phi_o + np.pi),
-        f_r=scattered[:, 2:] * scale,
+        f_r=f_r,
         channels=("f_r",),
         name=path.stem,
     )

@@ -52,7 +52,8 @@ def load(path: Path | str) -> Measurement:
         OSError: The file cannot be read.
     """
     material = Material(path)
-    wi, wo, solid_angle, f_r = material.measured()
+    with np.errstate(all="ignore"):  # what is not finite is masked
+        wi, wo, solid_angle, f_r = material.measured()
     return validity.measurement(
         path,
         wi,

@@ -102,13 +102,15 @@ def load(path: Path | str) -> Measurement:
         scale = 1 / np.maximum(wi[:, 2:], validity.HORIZON)
     f_r, sigma, mask = block(""), block("sigma_"), block("mask_")
     assert f_r is not None
+    with np.errstate(over="ignore"):  # infinity is masked
+        f_r, sigma = f_r * scale, None if sigma is None else sigma * scale
     return validity.measurement(
         path,
         wi,
         wo,
-        f_r * scale,
+        f_r,
         known=None if mask is None else mask > 0,
-        sigma=None if sigma is None else sigma * scale,
+        sigma=sigma,
         solid_angle=columns.get("solid_angle"),
         channels=channels,
         name=header.get("name", path.stem),

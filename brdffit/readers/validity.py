@@ -1,8 +1,9 @@
 """Which numbers of a file may be used; the last step of every reader.
 
-The reader keeps every number of its file. What cannot be used is masked: NaN and
+The reader keeps every value of its file. What cannot be used is masked: NaN and
 infinity, directions at or below the horizon, and, where the number is a reflectance and
-not a radiance with noise, negative values.
+not a radiance with noise, negative values. A direction that is not finite is masked and
+becomes the normal, because no BRDF can be evaluated there.
 """
 
 from pathlib import Path
@@ -13,6 +14,7 @@ import numpy as np
 from brdffit.samples import Measurement
 from brdffit.types import Mask, Values, Vectors
 
+NORMAL = np.array([0.0, 0.0, 1.0])
 HORIZON = 1e-6  # cosine; 90 degrees is 6e-17 after rounding, and is at the horizon
 
 
@@ -37,7 +39,11 @@ def measurement(
     Raises:
         ValueError: No value can be used.
     """
-    mask = np.isfinite(f_r) & (f_r >= 0)
+    known_directions = np.isfinite(wi).all(axis=1) & np.isfinite(wo).all(axis=1)
+    if not known_directions.all():
+        wi = np.where(known_directions[:, None], wi, NORMAL).astype(wi.dtype)
+        wo = np.where(known_directions[:, None], wo, NORMAL).astype(wo.dtype)
+    mask = np.isfinite(f_r) & (f_r >= 0) & known_directions[:, None]
     mask &= (above_horizon(wi) & above_horizon(wo))[:, None]
     if known is not None:
         mask &= known

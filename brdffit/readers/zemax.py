@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from brdffit.readers import text, validity
-from brdffit.readers.angles import directions
+from brdffit.readers.angles import directions, finite
 from brdffit.samples import Measurement
 
 DESCRIPTION = "Zemax BSDF text: tabulated scatter about the specular ray"
@@ -122,7 +122,8 @@ def read_directions(
     rotation: np.ndarray, incidence: np.ndarray, azimuth: np.ndarray, radial: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """``wi`` and ``wo`` of every cell, shape ``(len of each..., 3)``."""
-    turn, theta, a, r = np.ix_(rotation, incidence, azimuth, radial)
+    angles = (finite(each) for each in (rotation, incidence, azimuth, radial))
+    turn, theta, a, r = np.ix_(*angles)
     zero = np.zeros_like(turn + theta + a + r)
     # Where the light lies at azimuth 0 and the specular ray at azimuth 180 degrees:
     specular = directions(theta + zero, np.pi)

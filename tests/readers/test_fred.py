@@ -89,3 +89,12 @@ def test_measured_coatings_have_all_rows_and_peak_forward(name):
     peak = near[measured.f_r[near, 0].argmax()]
     mirror = measured.wi[peak] * [-1, -1, 1]
     assert mirror @ measured.wo[peak] > np.cos(np.radians(5.1))
+
+
+def test_values_that_overflow_are_masked(tmp_path):
+    path = specimens.fred(tmp_path)
+    path.write_text(path.read_text().replace("scale=1", "scale=1e308"))
+    measured = fred.load(path)
+    assert np.isinf(measured.f_r).any() == (~measured.mask).any()
+    path.write_text(path.read_text().replace("1.100000", "9.100000"))
+    assert np.isinf(fred.load(path).f_r).sum() == 1
