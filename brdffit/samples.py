@@ -6,12 +6,16 @@ computes.
 
 import dataclasses
 from collections.abc import Sequence
+from typing import TypeVar
 
 import equinox as eqx
 import numpy as np
 from jaxtyping import Float
 
+from brdffit.names import look_up
 from brdffit.types import AnyArray, Index, Mask, Values, Vectors
+
+Data = TypeVar("Data", "Samples", "Measurement")
 
 
 class Pixels(eqx.Module):
@@ -175,6 +179,24 @@ def join(parts: Sequence[Samples]) -> Samples:
     return dataclasses.replace(
         first, **{name: together(name) for name in names}, pixels=where or None
     )
+
+
+def pick_channels(data: Data, names: Sequence[str]) -> Data:
+    """The data in some of their channels, in the order asked for.
+
+    Raises:
+        ValueError: There is no such channel.
+    """
+    arrays = ("f_r",) if isinstance(data, Measurement) else ("weight", "value")
+    known = data.channels or default_channels(getattr(data, arrays[-1]).shape[-1])
+    places = {name: place for place, name in enumerate(known)}
+    picked = [look_up(places, name, f"Channel of `{data.name}`") for name in names]
+    new = {
+        name: array[..., picked]
+        for name in (*arrays, "sigma", "mask")
+        if (array := getattr(data, name)) is not None
+    }
+    return dataclasses.replace(data, **new, channels=tuple(names))
 
 
 def default_channels(count: int) -> tuple[str, ...]:
