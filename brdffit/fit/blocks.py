@@ -5,6 +5,8 @@ a block is one of a few, so that another file seldom needs another compilation.
 """
 
 import equinox as eqx
+import jax
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float, Int
 
@@ -16,25 +18,32 @@ SIZE = 2048  # samples in a block: its rows fit into the second-level cache
 
 
 class Blocks(eqx.Module):
-    """Samples in blocks ``(block, component, ..., place)``.
+    """Samples in blocks ``(block, component, ..., place)``, or one block of them.
 
     Attributes:
         wi, wo: Directions.
         weight: What a unit of ``f_r`` adds to the value; one channel when all agree.
         value: Observations.
-        scale: Factor of each residual: the root of its weight; 0 where masked.
+        target: The observations after the transform of the residual.
+        scale: Weight of a difference from ``target`` (a root: it enters squared); 0
+            where masked.
+        lean: Weight of a difference from ``value`` that means the same near it.
         cos_i, cos_o: Cosines a residual may use.
         count: Number of blocks that hold samples.
+        known_sigma: True when the weights are standard deviations of the observations.
     """
 
-    wi: Float[AnyArray, "block 3 light place"]
-    wo: Float[AnyArray, "block 3 place"]
-    weight: Float[AnyArray, "block light channel_or_1 place"]
-    value: Float[AnyArray, "block channel place"]
-    scale: Float[AnyArray, "block channel_or_1 place"]
-    cos_i: Float[AnyArray, "block place"]
-    cos_o: Float[AnyArray, "block place"]
+    wi: Float[AnyArray, "*block 3 light place"]
+    wo: Float[AnyArray, "*block 3 place"]
+    weight: Float[AnyArray, "*block light channel_or_1 place"]
+    value: Float[AnyArray, "*block channel place"]
+    target: Float[AnyArray, "*block channel place"]
+    scale: Float[AnyArray, "*block scales place"]
+    lean: Float[AnyArray, "*block leans place"]
+    cos_i: Float[AnyArray, "*block place"]
+    cos_o: Float[AnyArray, "*block place"]
     count: Int[AnyArray, ""]
+    known_sigma: bool = eqx.field(static=True)
 
 
 def usable(samples: Samples, residual: Residual) -> np.ndarray:
@@ -55,17 +64,27 @@ def usable(samples: Samples, residual: Residual) -> np.ndarray:
     return use
 
 
-def blocks(samples: Samples, use: np.ndarray, dtype: np.dtype) -> Blocks:
-    """Lay out the samples of which at least one value is used."""
+def blocks(
+    samples: Samples, use: np.ndarray, residual: Residual, dtype: np.dtype
+) -> Blocks:
+    """Lay out the samples of which at least one value is used.
+
+    Weights are the inverse of the known standard deviations, carried through the
+    transform of the residual, times the root of the share of the solid angle.
+    """
     rows = np.flatnonzero(use.any(axis=1))
     samples, use = samples.take(rows), use[rows]
     value = np.where(use, samples.value, 1)
-    scale = use.astype(float)
-    if samples.sigma is not None:
-        scale = np.where(use, scale / np.where(use, samples.sigma, 1), 0)
+    target, slope = _transformed(residual, samples, value)
+    base = use.astype(float)
     if samples.solid_angle is not None:
         share = samples.solid_angle / samples.solid_angle.mean()
-        scale = scale * np.sqrt(share)[:, None]
+        base = base * np.sqrt(share)[:, None]
+    if samples.sigma is None:
+        scale, lean = base, base * slope
+    else:
+        lean = base / np.where(use, samples.sigma, 1)
+        scale = np.where(slope > 0, lean / np.where(slope > 0, slope, 1), 0)
 
     up = (samples.wi[..., 2] > 0) & (samples.wo[:, 2] > 0)[:, None]
     wi = np.where(up[..., None], samples.wi, [0.6, 0.0, 0.8])
@@ -93,11 +112,26 @@ def blocks(samples: Samples, use: np.ndarray, dtype: np.dtype) -> Blocks:
         wo=lay_directions(samples.wo),
         weight=lay(_once(weight), 1 / lights),
         value=lay(value, 1),
+        target=lay(target, 0),
         scale=lay(_once(scale), 0),
+        lean=lay(_once(lean), 0),
         cos_i=lay(samples.cosine, 0.8),
         cos_o=lay(samples.wo[:, 2], 0.8),
         count=np.asarray(number, np.int32),
+        known_sigma=samples.sigma is not None,
     )
+
+
+def _transformed(residual: Residual, samples: Samples, value: np.ndarray):
+    """Values after the transform, and its slope there."""
+    cosines = jnp.asarray(samples.cosine)[:, None], jnp.asarray(samples.wo)[:, 2:]
+    value = jnp.asarray(value)
+
+    def transform(value):
+        return residual.transform(value, *cosines)
+
+    target, slope = jax.jvp(transform, (value,), (jnp.ones_like(value),))
+    return np.asarray(target), np.asarray(slope)
 
 
 def _once(array: np.ndarray) -> np.ndarray:

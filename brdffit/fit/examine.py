@@ -53,23 +53,22 @@ def examine(
     cost = float(equations.cost)
     freedom = count - int(np.sum(~fixed & ~low & ~high))
     variance = 1.0 if known_sigma else 2 * cost / max(freedom, 1)
-    known = layout.known
-    spans = np.array([p.upper - p.lower for p in known])
     errors = uncertainty(
-        equations.hessian,
-        natural,
-        slopes,
-        spans,
-        fixed | low | high,
-        variance,
-        layout.labels,
+        hessian=equations.hessian,
+        natural=natural,
+        slopes=slopes,
+        widths=np.where(upper > lower, upper - lower, 1.0),
+        fixed=fixed,
+        at_bound=low | high,
+        variance=variance,
+        labels=layout.labels,
     )
-    errors.standard_errors[fixed] = 0.0
     at_bound = {
         layout.labels[i]: f"`{layout.labels[i]}` is at its {side} bound "
-        f"{getattr(known[i], side):g}."
+        f"{getattr(layout.known[i], side):g}."
         for side, where in (("lower", low), ("upper", high))
         for i in np.flatnonzero(where)
+        if layout.labels[i] not in errors.undetermined
     }
     unknowns = len(x) - len(held) + (not known_sigma)
     deviance = _deviance(cost, count, known_sigma)
@@ -83,7 +82,7 @@ def examine(
         "cost": cost,
         "costs": {n: float(t[0]) for n, t in zip(RESIDUALS, tallies, strict=True)},
         "rms": {
-            n: math.sqrt(2 * t[0] / max(t[1], 1))
+            n: math.sqrt(t[1] / max(t[2], 1))
             for n, t in zip(RESIDUALS, tallies, strict=True)
         },
         "count": count,

@@ -13,7 +13,7 @@ from brdffit.fit.blocks import blocks, usable
 from brdffit.fit.examine import examine
 from brdffit.fit.residual import RESIDUALS, Residual, cosine_weighted, log
 from brdffit.fit.result import FitResult
-from brdffit.fit.search import search
+from brdffit.fit.search import RTOL, search
 from brdffit.fit.start import spread_starts
 from brdffit.fit.transforms import (
     Layout,
@@ -63,6 +63,10 @@ def fit(
             not match, or no usable sample; a sentence says which.
     """
     begin = time.perf_counter()
+    if precision not in RTOL:
+        raise ValueError(
+            f"Precision must be `float64` or `float32`, but is `{precision}`."
+        )
     samples = as_samples(data)
     if samples.value is None:
         raise ValueError(
@@ -79,9 +83,9 @@ def fit(
     with jax.enable_x64(True):
         held = [p for name in fixed or {} for p in layout.places[name]]
         x0 = _starts(layout, brdf, starts, held, given=not isinstance(model, str))
-        problem = _problem(layout, brdf, residual, held)
+        problem = bounded_problem(layout, brdf, residual, held)
         found = search(problem, samples, use, x0, precision, max_steps)
-        exact = problem(blocks=blocks(samples, use, np.dtype(np.float64)))
+        exact = problem(blocks=blocks(samples, use, residual, np.dtype(np.float64)))
         facts = examine(exact, found, held, int(use.sum()), samples.sigma is not None)
     return FitResult(
         brdf=_fitted(brdf, facts["parameters"]),
@@ -164,8 +168,12 @@ def _starts(layout, brdf, count, held, given: bool) -> np.ndarray:
     return np.concatenate([own[None], spread]) if given else spread
 
 
-def _problem(layout, brdf, residual, held) -> partial[structure.Problem]:
+def bounded_problem(
+    layout: Layout, brdf: AbstractBRDF, residual: Residual, held: Sequence[int]
+) -> partial[structure.Problem]:
+    """A fit that lacks only its samples; parameters at ``held`` places do not move."""
     lower, upper = bounds(layout)
+    held = list(held)
     lower[held] = upper[held] = to_solver(layout, pack(brdf))[held]
     return partial(
         structure.Problem,

@@ -1,6 +1,6 @@
 """From many starts to the best minimum: sort out on few samples, finish on all."""
 
-from collections.abc import Callable
+from functools import partial
 
 import equinox as eqx
 import jax
@@ -26,12 +26,14 @@ class Minima(eqx.Module):
     Attributes:
         x: All parameters in solver coordinates.
         cost: Half the weighted sum of squares.
+        rounding: Error of the cost.
         steps: Solver steps taken.
         status: Outcome of each solve.
     """
 
     x: Float[Array, "start n"]
     cost: Float[Array, " start"]
+    rounding: Float[Array, " start"]
     steps: Int[Array, " start"]
     status: optx.RESULTS
 
@@ -55,7 +57,7 @@ class Search(eqx.Module):
 
 
 def search(
-    problem: Callable[..., structure.Problem],
+    problem: partial[structure.Problem],
     samples: Samples,
     use: Bool[np.ndarray, "sample channel"],
     starts: Float[np.ndarray, "start n"],
@@ -76,26 +78,27 @@ def search(
         max_steps: Steps after which a start gives up.
     """
     dtype, rtol = np.dtype(precision), RTOL[precision]
+    residual = problem.keywords["residual"]
     rows = np.flatnonzero(use.any(axis=1))
     met = None
     if len(rows) > SCREEN and len(starts) > 1:
         few = _screen(samples, rows)
-        sample = problem(blocks=blocks(samples.take(few), use[few], dtype))
+        sample = problem(blocks=blocks(samples.take(few), use[few], residual, dtype))
         met = solve(sample, jnp.asarray(starts), rtol, max_steps)
         # always as many, so that one program serves: the best stands in for absent ones
-        finalists = np.resize(_distinct(np.asarray(met.cost))[:FINALISTS], FINALISTS)
+        finalists = np.resize(_distinct(met)[:FINALISTS], FINALISTS)
         starts = np.asarray(met.x)[finalists]
-    whole = problem(blocks=blocks(samples, use, dtype))
+    whole = problem(blocks=blocks(samples, use, residual, dtype))
     final = solve(whole, jnp.asarray(starts), rtol, max_steps)
     met = final if met is None else met
-    cost = np.asarray(met.cost)
+    near = np.asarray(met.cost) <= np.nanmin(met.cost) + _same(met)
     best = int(np.nanargmin(final.cost))
     return Search(
         x=np.asarray(final.x[best]),
         steps=int(final.steps[best]),
         status=jax.tree.map(lambda leaf: leaf[best], final.status),
-        basins=len(_distinct(cost)),
-        agreement=float(np.mean(cost <= np.nanmin(cost) * (1 + SAME_BASIN) + 1e-300)),
+        basins=len(_distinct(met)),
+        agreement=float(np.mean(near)),
     )
 
 
@@ -109,13 +112,18 @@ def _screen(samples: Samples, rows: np.ndarray) -> np.ndarray:
     return np.union1d(even, bright[:: max(1, len(bright) // share)][:share])
 
 
-def _distinct(cost: np.ndarray) -> np.ndarray:
+def _same(met: Minima) -> np.ndarray:
+    """Difference in cost up to which two minima count as one."""
+    return SAME_BASIN * np.abs(met.cost) + 4 * np.asarray(met.rounding)
+
+
+def _distinct(met: Minima) -> np.ndarray:
     """Index of one start per basin, the best first."""
+    cost, same = np.asarray(met.cost), _same(met)
     order = np.argsort(cost)
-    level = cost[order]
     new = np.ones(len(order), bool)
-    new[1:] = level[1:] > level[:-1] * (1 + SAME_BASIN) + 1e-300
-    return order[new & np.isfinite(level)]
+    new[1:] = cost[order[1:]] > cost[order[:-1]] + same[order[1:]]
+    return order[new & np.isfinite(cost[order])]
 
 
 @eqx.filter_jit
@@ -159,6 +167,7 @@ def solve(
         return Minima(
             x=x,
             cost=solution.state.equations.cost,
+            rounding=solution.state.equations.rounding,
             steps=solution.stats["num_steps"],
             status=solution.result,
         )

@@ -87,7 +87,7 @@ def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
     parameter in turn.
     """
     layout = problem.layout
-    places = tuple(layout.channel_places(layout.nonlinear)[0])
+    places = tuple(layout.channel_places(layout.nonlinear)[0].tolist())
     dtype = block.wi.dtype
     zero = jnp.zeros(len(layout.linear), dtype)
     each = jnp.eye(len(layout.linear), dtype=dtype)
@@ -97,9 +97,7 @@ def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
         natural = to_natural(layout, x, places).astype(dtype) if places else zero[:0]
 
         def reflectance(linear):
-            return _reflectance(
-                layout, channel, linear, natural, block.wi, block.wo
-            )
+            return _reflectance(layout, channel, linear, natural, block.wi, block.wo)
 
         rows = [reflectance(zero)]
         rows += [jax.jvp(reflectance, (zero,), (e,))[1] for e in each]
@@ -140,11 +138,11 @@ def _over_blocks(problem: Problem, add, start):
 
     def body(i, total):
         def pick(array):
+            if array.ndim == 0:  # the count
+                return array
             return jax.lax.dynamic_index_in_dim(array, i, keepdims=False)
 
-        arrays = ("wi", "wo", "weight", "value", "scale", "cos_i", "cos_o")
-        picked = {name: pick(getattr(blocks, name)) for name in arrays}
-        part = add(Blocks(**picked, count=blocks.count))
+        part = add(jax.tree.map(pick, blocks))
         return jax.tree.map(lambda t, p: t + p.astype(t.dtype), total, part)
 
     return jax.lax.fori_loop(0, blocks.count, body, start)
@@ -154,20 +152,9 @@ def _gram(rows: Array) -> Array:
     return rows @ jnp.swapaxes(rows, -1, -2)
 
 
-def _linearised(problem: Problem, block: Blocks):
-    """Weights and data with which an affine problem imitates the residual.
-
-    Around the observation ``T(f) - T(y) = T'(y) (f - y)``: exact for affine residuals,
-    and the right start for the others.
-    """
-    cosines = (block.cos_i, block.cos_o)
-
-    def transform(value):
-        return problem.residual.transform(value, *cosines)
-
-    one = jnp.ones_like(block.value)
-    slope = jax.jvp(transform, (block.value,), (one,))[1]
-    return block.scale * slope, block.value
+def _transform(residual: Residual, block: Blocks):
+    """The transform of a residual on values ``(channel, place)`` of a block."""
+    return lambda value: residual.transform(value, block.cos_i[None], block.cos_o[None])
 
 
 def project(problem: Problem, x: Array, derivatives: bool = True):
@@ -182,17 +169,16 @@ def project(problem: Problem, x: Array, derivatives: bool = True):
     channels = layout.channels
     shared = (
         not layout.separate
-        and problem.residual.affine
-        and problem.blocks.weight.shape[2] == problem.blocks.scale.shape[1] == 1
+        and problem.blocks.weight.shape[2] == problem.blocks.lean.shape[1] == 1
     )
 
     def add(block):
-        scale, value = _linearised(problem, block)
         rows = _rows(problem, x, block, derivatives)
         if shared:  # one product for all channels
-            return _gram(jnp.concatenate([rows[0], value]) * scale[:1])[None]
+            return _gram(jnp.concatenate([rows[0], block.value]) * block.lean)[None]
         rows = jnp.broadcast_to(rows, (channels, *rows.shape[1:]))
-        return _gram(jnp.concatenate([rows, value[:, None]], 1) * scale[:, None])
+        rows = jnp.concatenate([rows, block.value[:, None]], axis=1)
+        return _gram(rows * block.lean[:, None])
 
     size = (1, count + channels) if shared else (channels, count + 1)
     gram = _over_blocks(problem, add, jnp.zeros((*size, size[1]), jnp.float64))
@@ -234,14 +220,14 @@ def _eliminate(gram, lower, upper, q: int, m: int, derivatives: bool):
     )
     if q:
         held = jnp.where(free[:, None] & free[None, :], basis, jnp.eye(q))
-        cross = tangent[:, 1 : 1 + q] * free
+        cross = tangent[:, 1 : 1 + q] * free[None]
         unit = jax.lax.rsqrt(
             jnp.maximum(jnp.diagonal(held), jnp.finfo(gram.dtype).tiny)
         )
         ridge = 8 * jnp.finfo(gram.dtype).eps * jnp.eye(q)
         scaled = held * unit[:, None] * unit[None, :] + ridge
-        solved = jax.vmap(solve_positive, (None, 0))(scaled, cross * unit)
-        hessian -= (cross * unit) @ solved.T
+        solved = jax.vmap(solve_positive, (None, 0))(scaled, cross * unit[None])
+        hessian -= (cross * unit[None]) @ solved.T
     return (cost, gradient, hessian), linear
 
 
@@ -259,12 +245,10 @@ def stream(problem: Problem, x: Array) -> NormalEquations:
         rows = rows.reshape(layout.channels, 1 + m, 1 + q, -1)
         mixed = jnp.einsum("cj,cmjp->cmp", combination.astype(rows.dtype), rows)
 
-        def transform(value):
-            return problem.residual.transform(value, block.cos_i, block.cos_o)
-
+        transform = _transform(problem.residual, block)
         predicted = mixed[:, 0]
         compared, slope = jax.jvp(transform, (predicted,), (jnp.ones_like(predicted),))
-        error = compared - transform(block.value)
+        error = compared - block.target
         jacobian = jnp.concatenate([rows[:, 0, 1:], mixed[:, 1:]], axis=1)
         local = jnp.concatenate([jacobian * slope[:, None], error[:, None]], axis=1)
         magnitude = jnp.sum((slope * predicted * block.scale) ** 2)
@@ -294,32 +278,35 @@ def _assemble(parts, places: np.ndarray, size: int, rounding, floor) -> NormalEq
 
 
 def costs(problem: Problem, x: Array, residuals: tuple[Residual, ...]) -> Array:
-    """Half the weighted sum of squares under each residual, at one set of parameters.
+    """How far off the parameters are under each residual.
 
-    Values that a residual cannot compare are left out of its sum. Returns
-    ``(residual, 2)``: the cost, and how many values it counts.
+    Values that a residual cannot compare are left out of its sums.
+
+    Returns:
+        ``(residual, 3)``: half the weighted sum of squares, the unweighted sum of
+        squares, and the number of values in it.
     """
     layout = problem.layout
     linear = x[layout.channel_places(layout.linear)]
 
     def add(block):
         predicted = _predicted(problem, x, linear, block)
+        base = block.lean if block.known_sigma else block.scale
         found = []
         for residual in residuals:
-            use = jnp.broadcast_to(block.scale > 0, predicted.shape)
+            transform = _transform(residual, block)
+            one = jnp.ones_like(block.value)
+            target, slope = jax.jvp(transform, (block.value,), (one,))
+            use = jnp.broadcast_to(base > 0, predicted.shape) & (slope > 0)
             if residual.positive:
                 use &= block.value > 0
-
-            def transform(value, residual=residual):
-                return residual.transform(value, block.cos_i, block.cos_o)
-
-            error = jnp.where(use, transform(predicted) - transform(block.value), 0)
-            found.append(
-                jnp.stack([jnp.sum((error * block.scale) ** 2) / 2, jnp.sum(use)])
-            )
+            error = jnp.where(use, transform(predicted) - target, 0)
+            scale = base / jnp.where(use, slope, 1) if block.known_sigma else base
+            tally = (jnp.sum((error * scale) ** 2) / 2, jnp.sum(error**2), jnp.sum(use))
+            found.append(jnp.stack(tally))
         return jnp.stack(found)
 
-    return _over_blocks(problem, add, jnp.zeros((len(residuals), 2), jnp.float64))
+    return _over_blocks(problem, add, jnp.zeros((len(residuals), 3), jnp.float64))
 
 
 def _predicted(problem: Problem, x, linear, block):

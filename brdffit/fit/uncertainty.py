@@ -1,15 +1,15 @@
 """How sure a fit is: standard errors, correlation, and what the data cannot tell.
 
-Everything comes from the weighted Jacobian at the solution. Parameters on a bound or
-held fixed take no part in the errors of the others.
+Everything comes from the weighted Jacobian at the solution, in solver coordinates.
 """
 
 import dataclasses
 
 import numpy as np
 
-NULL = 1e-10  # eigenvalue of the scaled Hessian below which a direction is not seen
-INVOLVED = 0.05  # share of a null direction that makes a parameter part of it
+UNSEEN = 1e-10  # eigenvalue of the Hessian, at unit diagonal, that is mere rounding
+WIDE = 0.3  # a uniform guess has this standard error, in widths of the legal interval
+INVOLVED = 0.05  # share of a direction that makes a parameter part of it
 
 
 @dataclasses.dataclass(frozen=True)
@@ -17,8 +17,9 @@ class Uncertainty:
     """Errors of all parameters, in the order of the layout, in natural units.
 
     Attributes:
-        standard_errors: One standard deviation; infinite where undetermined.
-        correlation: Matrix of correlations; 0 where one of the two is undetermined.
+        standard_errors: One standard deviation; infinite where undetermined, 0 where
+            fixed; on a bound the error that the parameter would have if it were free.
+        correlation: Matrix of correlations; 0 where one of the two has no error.
         undetermined: Sentence per parameter that the data cannot tell, by label.
     """
 
@@ -31,103 +32,149 @@ def uncertainty(
     hessian: np.ndarray,
     natural: np.ndarray,
     slopes: np.ndarray,
-    spans: np.ndarray,
-    held: np.ndarray,
+    widths: np.ndarray,
+    fixed: np.ndarray,
+    at_bound: np.ndarray,
     variance: float,
     labels: tuple[str, ...],
 ) -> Uncertainty:
     """Errors from the Gauss-Newton Hessian at the solution.
 
+    Parameters on a bound take no part in the errors of the others, unless the data
+    cannot tell them: then they only happened to stop there.
+
     Args:
         hessian: ``J^T J`` in solver coordinates.
         natural: Parameter values.
         slopes: Derivative of each value along its solver coordinate.
-        spans: Width of each legal interval, in natural units.
-        held: True for parameters on a bound or fixed.
+        widths: Width of each legal interval, in solver coordinates.
+        fixed: True for parameters that were held.
+        at_bound: True for parameters on a bound.
         variance: Variance of a residual of unit weight.
         labels: Names of the parameters.
     """
-    count = len(natural)
-    jacobian_scale = np.sqrt(np.diag(hessian))
-    seen = jacobian_scale > 0
-    free = ~held & seen
-    scale = np.where(seen, jacobian_scale, 1)
-    scaled = hessian / np.outer(scale, scale)
+    seen = np.diag(hessian) > 0
+    asked = ~fixed & seen
+    unit = 1 / np.sqrt(np.where(seen, np.diag(hessian), 1))
+    scaled = hessian * np.outer(unit, unit)
 
     undetermined = {
         labels[i]: f"`{labels[i]}` has no effect on these data."
-        for i in np.flatnonzero(~seen & ~held)
+        for i in np.flatnonzero(~seen & ~fixed)
     }
-    covariance, null = _invert(scaled[np.ix_(free, free)], variance)
-    free_places = np.flatnonzero(free)
-    per_scale = slopes / scale
-    relative = per_scale[free] / np.where(
-        natural[free] != 0, natural[free], spans[free]
-    )
-
-    # a direction is lost as well when its error is wider than the legal interval
-    wide = np.sqrt(np.diag(covariance)) * np.abs(per_scale[free]) > spans[free]
-    for direction in null:
+    relative = slopes / np.where(natural != 0, np.abs(natural), np.abs(slopes))
+    places = np.flatnonzero(asked)
+    for direction in _lost(scaled, unit, widths, variance, places):
         parts = np.abs(direction) > INVOLVED * np.abs(direction).max()
-        sentence = _sentence(
-            [labels[i] for i in free_places[parts]], (direction * relative)[parts]
-        )
-        for i in free_places[parts]:
+        involved = places[parts]
+        change = (direction * widths[places] * relative[places])[parts]
+        pivot = involved[np.argmax(np.abs(change))]
+        rest = np.setdiff1d(places[~at_bound[places]], [pivot])
+        errors = np.sqrt(np.diag(_covariance(scaled, rest, variance)))
+        precision = (errors * unit * np.abs(relative))[involved]
+        sentence = _sentence([labels[i] for i in involved], change, precision)
+        for i in involved:
             undetermined.setdefault(labels[i], sentence)
-    for i in free_places[wide]:
-        undetermined.setdefault(
-            labels[i],
-            f"`{labels[i]}` is not determined by these data: its standard error is "
-            "wider than its legal range.",
-        )
 
-    full = np.zeros((count, count))
-    full[np.ix_(free, free)] = covariance
-    errors = np.sqrt(np.maximum(np.diag(full), 0)) * np.abs(per_scale)
-    for i in np.flatnonzero(held & seen):
-        alone, _ = _invert(
-            scaled[
-                np.ix_(free | (np.arange(count) == i), free | (np.arange(count) == i))
-            ],
-            variance,
-        )
-        position = np.count_nonzero((free | (np.arange(count) == i))[:i])
-        errors[i] = np.sqrt(max(alone[position, position], 0)) * abs(per_scale[i])
     lost = np.array([label in undetermined for label in labels])
+    free = asked & ~(at_bound & ~lost)
+    covariance = _covariance(scaled, np.flatnonzero(free), variance)
+    errors = np.sqrt(np.diag(covariance)) * unit * np.abs(slopes)
+    for i in np.flatnonzero(asked & ~free):
+        alone = np.flatnonzero(free | (np.arange(len(free)) == i))
+        errors[i] = np.sqrt(_covariance(scaled, alone, variance)[i, i])
+        errors[i] *= unit[i] * abs(slopes[i])
     errors[lost] = np.inf
 
-    deviation = np.sqrt(np.maximum(np.diag(full), 0))
-    sure = (deviation > 0) & ~lost
-    correlation = np.eye(count)
-    block = full[np.ix_(sure, sure)] / np.outer(deviation[sure], deviation[sure])
-    correlation[np.ix_(sure, sure)] = np.clip(block, -1, 1)
+    deviation = np.sqrt(np.diag(covariance))
+    known = (deviation > 0) & ~lost
+    correlation = np.eye(len(labels))
+    block = covariance[np.ix_(known, known)]
+    block = block / np.outer(deviation[known], deviation[known])
+    correlation[np.ix_(known, known)] = np.clip(block, -1, 1)
     return Uncertainty(errors, correlation, undetermined)
 
 
-def _invert(scaled: np.ndarray, variance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Covariance over the directions that the data see, and the null directions."""
-    if scaled.size == 0:
-        return scaled, np.zeros((0, 0))
-    eigenvalues, vectors = np.linalg.eigh(scaled)
-    lost = eigenvalues < NULL
+def _lost(scaled, unit, widths, variance, places) -> np.ndarray:
+    """Directions the data do not see, in widths of the legal intervals.
+
+    Either the Hessian vanishes along them up to rounding, or the noise leaves them no
+    better known than the interval already says.
+    """
+    if len(places) == 0:
+        return np.zeros((0, 0))
+    square = np.ix_(places, places)
+    eigenvalues, vectors = np.linalg.eigh(scaled[square])
+    unseen = (vectors.T * unit[places] / widths[places])[eigenvalues < UNSEEN]
+    # floor: rounding must not make a lost direction look sure
+    solid = (vectors * np.maximum(eigenvalues, UNSEEN)) @ vectors.T
+    stretch = widths[places] / unit[places]
+    spread, directions = np.linalg.eigh(solid * np.outer(stretch, stretch))
+    vague = directions.T[variance / np.maximum(spread, 1e-300) > WIDE**2]
+    return _sparse(unseen if len(unseen) >= len(vague) else vague)
+
+
+def _sparse(directions: np.ndarray) -> np.ndarray:
+    """The same space spanned by directions that each involve few parameters."""
+    rows = directions.copy()
+    for i in range(len(rows)):
+        row, column = np.unravel_index(np.argmax(np.abs(rows[i:])), rows[i:].shape)
+        rows[[i, i + row]] = rows[[i + row, i]]
+        rows[i] /= rows[i, column]
+        others = np.arange(len(rows)) != i
+        rows[others] -= np.outer(rows[others, column], rows[i])
+    return rows
+
+
+def _covariance(scaled: np.ndarray, free: np.ndarray, variance: float) -> np.ndarray:
+    """Covariance of the free parameters at unit diagonal, 0 for the others."""
+    whole = np.zeros_like(scaled)
+    eigenvalues, vectors = np.linalg.eigh(scaled[np.ix_(free, free)])
+    lost = eigenvalues < UNSEEN
     inverse = np.where(lost, 0, variance / np.where(lost, 1, eigenvalues))
-    return (vectors * inverse) @ vectors.T, vectors[:, lost].T
+    whole[np.ix_(free, free)] = (vectors * inverse) @ vectors.T
+    return whole
 
 
-def _sentence(labels: list[str], relative: np.ndarray) -> str:
-    """A null direction in words: what undoes a change of the first parameter."""
+def _sentence(labels: list[str], change: np.ndarray, precision: np.ndarray) -> str:
+    """A lost direction in words: what undoes a change of its leading parameter.
+
+    Args:
+        labels: Parameters involved.
+        change: Relative change of each along the direction.
+        precision: Relative error of each when the leading one is held.
+    """
     if len(labels) == 1:
-        return f"`{labels[0]}` is not determined by these data."
-    pivot = int(np.argmax(np.abs(relative)))
-    change = 10.0
-    ratios = relative / relative[pivot] * change
-    names = ", ".join(f"`{label}`" for label in labels[:-1]) + f" and `{labels[-1]}`"
-    others = ", ".join(
-        f"{'raising' if ratio > 0 else 'lowering'} `{label}` by {abs(ratio):.3g} %"
-        for i, (label, ratio) in enumerate(zip(labels, ratios, strict=True))
-        if i != pivot
-    )
+        return (
+            f"`{labels[0]}` is not determined by these data: its error is as wide as "
+            "its legal interval."
+        )
+    pivot = int(np.argmax(np.abs(change)))
+    ratio = change / change[pivot] * 10
+    groups: dict[str, list[int]] = {}
+    for i, label in enumerate(labels):
+        if i != pivot:
+            groups.setdefault(label.partition("[")[0], []).append(i)
+    names, undone, sure = [labels[pivot]], [], []
+    for name, members in groups.items():
+        low, high = np.min(ratio[members]), np.max(ratio[members])
+        together = high - low < 0.01 * abs(high)
+        if len(members) == 1:
+            name = labels[members[0]]
+        names.append(name)
+        parts = [(name, high)] if together else [(labels[i], ratio[i]) for i in members]
+        undone += [
+            f"{'raising' if r > 0 else 'lowering'} `{n}` by {abs(r):.3g} %"
+            for n, r in parts
+        ]
+        sure.append(f"`{name}` to {100 * np.max(precision[members]):.2g} %")
     return (
-        f"{names} cannot be told apart by these data: raising `{labels[pivot]}` by "
-        f"{change:.0f} % is undone by {others}."
+        f"{_listed([f'`{name}`' for name in names])} cannot be told apart by these "
+        f"data: raising `{labels[pivot]}` by 10 % is undone by {_listed(undone)}. With "
+        f"`{labels[pivot]}` held, the data determine {_listed(sure)}."
     )
+
+
+def _listed(words: list[str]) -> str:
+    """``a, b and c``."""
+    return ", ".join(words[:-1]) + " and " + words[-1] if len(words) > 1 else words[0]
