@@ -26,6 +26,8 @@ from brdffit.models.oren_nayar import OrenNayar as OrenNayar
 from brdffit.models.oren_nayar_full import OrenNayarFull as OrenNayarFull
 from brdffit.models.phong import Phong as Phong
 from brdffit.models.phong_original import PhongOriginal as PhongOriginal
+from brdffit.models.plastic_ggx import PlasticGGX as PlasticGGX
+from brdffit.models.principled import Principled as Principled
 from brdffit.models.student_t import StudentT as StudentT
 from brdffit.models.sum import Sum as Sum
 from brdffit.models.ward import Ward as Ward
