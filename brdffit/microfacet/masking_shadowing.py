@@ -180,7 +180,9 @@ def _area_student_t_jvp(primals, tangents):
 
 def _student_t(z: Scalar, t: Scalar, gamma: Scalar) -> tuple[Scalar, Scalar]:
     """The two integrals of `area_student_t`."""
-    node, complement, weight = (a.astype(z.dtype) for a in _double_exponential(40))
+    node, complement, weight = (
+        jnp.asarray(a, z.dtype) for a in _double_exponential(40)
+    )
     scale, power = numerics.sqrt(gamma - 1), 2 * gamma - 3
     length = numerics.norm_of(z, t * scale)
     cosine, sine = t * scale / length, z / length
