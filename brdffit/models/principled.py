@@ -24,10 +24,10 @@ class Principled(AbstractBRDF):
       F_{90} = \tfrac12 + 2 r c^2$$
 
     with $c = \omega_i\cdot\omega_h$, $\alpha = \max(0.001, r^2)$ and Schlick's $F$ from
-    $F_0 = 0.08\,(1 - m)\,p + m\,b$. The coat has $F_0 = 0.04$, $\alpha = 0.1 - 0.099\,g$,
-    and masking of $\alpha = 0.25$. Masking is that of the 2014 revision,
-    height-correlated here unless `separable`. Tints, anisotropy and subsurface
-    scattering of the original are left out.
+    $F_0 = 0.08\,(1 - m)\,p + m\,b$. The coat has $F_0 = 0.04$,
+    $\alpha = 0.1 - 0.099\,g$, and masking of $\alpha = 0.25$. Masking is that of the
+    2014 revision, height-correlated here unless `separable`. Tints, anisotropy and
+    subsurface scattering of the original are left out.
 
     Range:
         $f_r \ge 0$. Not energy conserving: for $b = 1$, $m = 0$ the base alone has an
