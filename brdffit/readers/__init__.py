@@ -11,7 +11,7 @@ and add its line below. The content decides, never the name of a file.
 """
 
 from pathlib import Path
-from typing import Protocol, runtime_checkable
+from types import ModuleType
 
 from brdffit.readers import (
     astm,
@@ -32,24 +32,7 @@ from brdffit.samples import Measurement, Samples
 HEAD = 65536  # bytes that a reader may look at to know its format
 
 
-@runtime_checkable
-class Reader(Protocol):
-    """What a module of this folder must have."""
-
-    DESCRIPTION: str
-    SUFFIXES: tuple[str, ...]
-    BEGINS: str
-
-    def matches(self, path: Path, head: bytes) -> bool:
-        """Whether the file or folder is of this format."""
-        ...
-
-    def load(self, path: Path | str) -> Measurement | Samples:
-        """Read it."""
-        ...
-
-
-READERS: dict[str, Reader] = {
+READERS: dict[str, ModuleType] = {
     "table": table,
     "fred": fred,
     "zemax": zemax,
@@ -103,6 +86,6 @@ def format_of(path: Path | str) -> str:
     )
 
 
-def title(reader: Reader) -> str:
+def title(reader: ModuleType) -> str:
     """What a format is called."""
     return reader.DESCRIPTION.partition(":")[0].partition(",")[0]

@@ -72,7 +72,8 @@ def read_header(path: Path, rows: Iterator[text.Line]) -> tuple[float, float]:
         raise ValueError(
             f"FRED file `{path}` ends after its first line; it is cut off."
         )
-    options = dict(word.partition("=")[::2] for word in row.text.split()[1:])
+    parts = (word.partition("=") for word in row.text.split()[1:])
+    options = {key: value for key, _, value in parts}
     if not row.text.startswith("format") or options.get("angles") not in UNITS:
         raise row.error("it must say `format angles=deg` or `format angles=rad`.")
     if options.get("bsdf") != "value":

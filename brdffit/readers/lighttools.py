@@ -79,7 +79,7 @@ def load(path: Path | str) -> Measurement:
             f"and channel, but has {len(blocks)} blocks for {len(incidence)} x "
             f"{len(channels)}."
         )
-    theta_i, phi_i = np.deg2rad(incidence).T
+    theta_i, phi_i = np.deg2rad(np.array(incidence)).T
     phi_o, theta_o = (a.ravel() for a in np.meshgrid(azimuth, radial, indexing="ij"))
     viewers = directions(np.deg2rad(theta_o), np.deg2rad(phi_o))
     return validity.measurement(

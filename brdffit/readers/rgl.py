@@ -94,8 +94,8 @@ class Material:
         """
         self._path = Path(path)
         self._arrays = tensor_file.read(path)
-        self._theta_i = np.float64(self._floats("theta_i", 1))
-        self._phi_i = np.float64(self._floats("phi_i", 1))
+        self._theta_i = self._floats("theta_i", 1).astype(np.float64)
+        self._phi_i = self._floats("phi_i", 1).astype(np.float64)
         grid = (len(self._phi_i), len(self._theta_i))
         if "spectra" in self._arrays:
             wavelengths = self._floats("wavelengths", 1)
@@ -227,7 +227,7 @@ class Material:
 
     def _description(self) -> str:
         text = self._arrays.get("description", np.zeros(0, "u1")).tobytes()
-        return text.decode(errors="replace").strip("\0 \n") or self._path.stem
+        return " ".join(text.decode(errors="replace").split()) or self._path.stem
 
     def _error(self, reason: str) -> ValueError:
         return ValueError(f"`{self._path}` is not a complete RGL material: {reason}.")

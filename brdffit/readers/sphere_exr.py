@@ -57,6 +57,7 @@ def load(path: Path | str) -> Samples:
         samples = trace(scene, len(channels))
     except ValueError as error:
         raise ValueError(f"Image `{path}` does not fit its scene: {error}") from error
+    assert samples.pixels is not None  # for the type checker
     value = pixels[samples.pixels.row, samples.pixels.column]
     mask = np.isfinite(value) & (samples.weight > 0).any(axis=1)
     mask &= validity.above_horizon(samples.wo)[:, None]

@@ -68,9 +68,9 @@ def load(path: Path | str) -> Samples:
         read_frame(photograph, light, seen, normal)
         for photograph, light in zip(photographs, lights, strict=True)
     ]
-    samples = dataclasses.replace(join(frames), name=folder.resolve().name)
-    validity.refuse_unusable(folder, samples.mask)
-    return samples
+    samples = join(frames)
+    validity.refuse_unusable(folder, np.asarray(samples.mask))
+    return dataclasses.replace(samples, name=folder.resolve().name)
 
 
 def list_photographs(folder: Path) -> list[Path]:

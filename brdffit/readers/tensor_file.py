@@ -77,7 +77,7 @@ def read_field(
     position += length
     dimensions, kind, offset = struct.unpack_from("<HBQ", content, position)
     position += 11
-    if dimensions > MOST_DIMENSIONS or TYPES[kind] is None:
+    if dimensions > MOST_DIMENSIONS or kind == 0 or not name.isidentifier():
         raise IndexError
     shape = struct.unpack_from(f"<{dimensions}Q", content, position)
     return name, (np.dtype(TYPES[kind]), offset, shape), position + 8 * dimensions

@@ -39,11 +39,12 @@ def measurement(
     Raises:
         ValueError: No value can be used.
     """
-    known_directions = np.isfinite(wi).all(axis=1) & np.isfinite(wo).all(axis=1)
-    if not known_directions.all():
-        wi = np.where(known_directions[:, None], wi, NORMAL).astype(wi.dtype)
-        wo = np.where(known_directions[:, None], wo, NORMAL).astype(wo.dtype)
-    mask = np.isfinite(f_r) & (f_r >= 0) & known_directions[:, None]
+    finite = np.isfinite(wi).all(axis=1, keepdims=True)
+    finite = finite & np.isfinite(wo).all(axis=1, keepdims=True)
+    if not finite.all():
+        wi = np.where(finite, wi, NORMAL).astype(wi.dtype)
+        wo = np.where(finite, wo, NORMAL).astype(wo.dtype)
+    mask = np.isfinite(f_r) & (f_r >= 0) & finite
     mask &= (above_horizon(wi) & above_horizon(wo))[:, None]
     if known is not None:
         mask &= known
