@@ -6,7 +6,7 @@ computes.
 
 import dataclasses
 from collections.abc import Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import equinox as eqx
 import numpy as np
@@ -89,7 +89,7 @@ class Samples(eqx.Module):
     def take(self, rows: np.ndarray) -> "Samples":
         """The samples with these indices, or where a Boolean array is True."""
 
-        def pick(array):
+        def pick(array: Any) -> Any:
             return None if array is None else array[rows]
 
         where = self.pixels and Pixels(
