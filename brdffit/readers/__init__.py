@@ -16,6 +16,7 @@ from types import ModuleType
 from brdffit.readers import (
     astm,
     curet,
+    exr_stack,
     fred,
     lighttools,
     merl,
@@ -45,6 +46,7 @@ READERS: dict[str, ModuleType] = {
     "utia": utia,
     "sphere_exr": sphere_exr,
     "sphere_photos": sphere_photos,
+    "exr_stack": exr_stack,
 }
 
 

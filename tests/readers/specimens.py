@@ -87,6 +87,19 @@ def sphere_exr(folder, resolution=12):
     return path
 
 
+def exr_stack(folder):
+    """The same sphere lit from two sides."""
+    path = folder / "specimen_stack"
+    path.mkdir()
+    for name, x in (("a", 0.6), ("b", -0.6)):
+        scene = lit_sphere(12, [(x, 0, 0.8)])
+        samples = simulate_image(MODELS["lambert"](), scene)
+        pixels = samples.pixels.images(np.asarray(samples.value), 0.0)[0]
+        images.write(path / f"{name}.exr", pixels)
+        save_scene(scene, path / f"{name}.toml")
+    return path
+
+
 def sphere_photos(folder, resolution=12):
     """Three photographs of a diffuse ball of albedo 0.5."""
     path = folder / "specimen_photos"
@@ -251,5 +264,6 @@ SPECIMENS = {
         utia,
         sphere_exr,
         sphere_photos,
+        exr_stack,
     )
 }

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from brdffit import MODELS, images
-from brdffit.readers import sphere_exr, sphere_photos
+from brdffit.readers import exr_stack, sphere_exr, sphere_photos
 from brdffit.render import simulate_image
 from brdffit.scene import lit_sphere, save_scene
 from tests.data import shared_data
@@ -185,3 +185,22 @@ def test_frames_are_joined_in_order(tmp_path):
     assert pictures.shape == (3, 12, 12, 3)
     assert pictures[1][:, -3:].sum() > pictures[1][:, :3].sum()  # light from the right
     assert pictures[2][:3].sum() > pictures[2][-3:].sum()  # light from above
+
+
+def test_a_stack_joins_its_images(tmp_path):
+    folder = specimens.exr_stack(tmp_path)
+    stack = exr_stack.load(folder)
+    one, other = (sphere_exr.load(folder / f"{name}.exr") for name in "ab")
+    assert stack.pixels.shape == (2, 12, 12)
+    np.testing.assert_array_equal(stack.value, np.concatenate([one.value, other.value]))
+    np.testing.assert_array_equal(stack.wi, np.concatenate([one.wi, other.wi]))
+    assert stack.name == "specimen_stack"
+
+
+def test_images_of_a_stack_must_agree(tmp_path):
+    folder = specimens.exr_stack(tmp_path)
+    path = specimens.sphere_exr(tmp_path, resolution=14)
+    for suffix in (".exr", ".toml"):
+        path.with_suffix(suffix).rename(folder / f"c{suffix}")
+    with pytest.raises(ValueError, match="must agree in size"):
+        exr_stack.load(folder)
