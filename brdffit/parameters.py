@@ -72,7 +72,9 @@ def parameter(
 
 def known(default: float, *, unit: str, symbol: str) -> Any:
     """Declare a model field with one value per channel that is given, never fitted."""
-    return eqx.field(default=default, metadata={"known": (unit, symbol)})
+    return eqx.field(
+        default=default, converter=as_float, metadata={"known": (unit, symbol)}
+    )
 
 
 def spectral_fields(model: eqx.Module | type[eqx.Module]) -> dict[str, bool]:

@@ -20,6 +20,7 @@ from brdffit.models.ggx import GGX as GGX
 from brdffit.models.ggx_anisotropic import GGXAnisotropic as GGXAnisotropic
 from brdffit.models.ggx_lobe import GGXLobe as GGXLobe
 from brdffit.models.ggx_multiscatter import GGXMultiscatter as GGXMultiscatter
+from brdffit.models.he import He as He
 from brdffit.models.lafortune import Lafortune as Lafortune
 from brdffit.models.lambert import Lambert as Lambert
 from brdffit.models.oren_nayar import OrenNayar as OrenNayar
