@@ -81,6 +81,7 @@ class Table:
 class Warp(Table):
     """A table as a density on the unit square, each slice with integral 1."""
 
+    @np.errstate(all="ignore")  # what is not finite is refused
     def __init__(self, array: np.ndarray, *nodes: np.ndarray):
         """Work out the distributions of rows, and of columns within rows.
 

@@ -1,4 +1,4 @@
-"""Angles of files as unit vectors, in numpy and in the precision of the file."""
+"""Angles of files as unit vectors, in numpy and in double precision."""
 
 import numpy as np
 
@@ -9,11 +9,13 @@ def directions(theta: np.ndarray | float, phi: np.ndarray | float) -> np.ndarray
     Both broadcast. A negative polar angle leans the other way, as goniometers write it.
     NaN where an angle is not finite.
     """
-    theta, phi = np.broadcast_arrays(finite(theta), finite(phi))
+    theta, phi = finite(theta), finite(phi)
     sin_theta = np.sin(theta)
-    return np.stack(
-        [sin_theta * np.cos(phi), sin_theta * np.sin(phi), np.cos(theta)], axis=-1
-    )
+    w = np.empty((*np.broadcast_shapes(theta.shape, phi.shape), 3))
+    w[..., 0] = sin_theta * np.cos(phi)
+    w[..., 1] = sin_theta * np.sin(phi)
+    w[..., 2] = np.cos(theta)
+    return w
 
 
 def finite(angles: np.ndarray | float) -> np.ndarray:

@@ -52,8 +52,7 @@ def load(path: Path | str) -> Measurement:
         OSError: The file cannot be read.
     """
     material = Material(path)
-    with np.errstate(all="ignore"):  # what is not finite is masked
-        wi, wo, solid_angle, f_r = material.measured()
+    wi, wo, solid_angle, f_r = material.measured()
     return validity.measurement(
         path,
         wi,
@@ -118,6 +117,7 @@ class Material:
         self._scaled = bool(self._arrays.get("jacobian", np.ones(1)).any())
         self.name = self._description()
 
+    @np.errstate(all="ignore")  # a damaged table gives NaN, not a warning
     def __call__(self, wi: Vectors, wo: Vectors) -> Values:
         """Reflectance ``f_r (N, C)``; 0 where a direction is not above the horizon."""
         wi, wo = np.asarray(wi, np.float64), np.asarray(wo, np.float64)
@@ -163,6 +163,7 @@ class Material:
         flip = np.concatenate([sign, np.ones((len(wi), 1))], axis=1)
         return wi * flip, wo * flip
 
+    @np.errstate(all="ignore")  # what is not finite is masked
     def measured(self) -> tuple[Vectors, Vectors, np.ndarray, Values]:
         """Directions, solid angle and reflectance at all nodes of the file."""
         grid = (self._reflectance.rows, self._reflectance.columns)
