@@ -53,11 +53,16 @@ def ggx(wh: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
         EGSR 2007, eq. 33.
     """
     x, y, z = wh
-    # by the length, not its square: that overflows in the gradient
     scale = 1 / numerics.norm_of(x, y, z)
-    u, v, w = x * (scale / alpha_x), y * (scale / alpha_y), z * scale
-    q = 1 / (u * u + v * v + w * w)
+    u, v = x * scale, y * scale
+    # without h_z^2, whose gradient would cancel that of the length near the normal
+    q = 1 / (1 + u * u * _excess(alpha_x) + v * v * _excess(alpha_y))
     return q * q / (jnp.pi * alpha_x * alpha_y)
+
+
+def _excess(alpha: Scalar) -> Scalar:
+    """``1/alpha^2 - 1``."""
+    return (1 - alpha) * (1 + alpha) / (alpha * alpha)
 
 
 def gtr1(wh: Direction, alpha: Scalar) -> Scalar:
@@ -74,9 +79,10 @@ def gtr1(wh: Direction, alpha: Scalar) -> Scalar:
     """
     x, y, z = wh
     scale = 1 / numerics.norm_of(x, y, z)
-    u, v, w = x * scale, y * scale, z * scale * alpha
+    u, v = x * scale, y * scale
+    square = alpha * alpha
     peak = (alpha + 1) / (2 * jnp.pi * numerics.log_ratio(alpha))
-    return peak / (u * u + v * v + w * w)
+    return peak / (square + (1 - alpha) * (1 + alpha) * (u * u + v * v))
 
 
 def blinn(wh: Direction, exponent: Scalar) -> Scalar:
