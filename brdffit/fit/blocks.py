@@ -74,7 +74,7 @@ def blocks(
     """
     rows = np.flatnonzero(use.any(axis=1))
     samples, use = samples.take(rows), use[rows]
-    value = np.where(use, samples.value, 1)
+    value = np.where(use, samples.value, 1).astype(np.float64)
     target, slope = _transformed(residual, samples, value)
     base = use.astype(float)
     if samples.solid_angle is not None:
@@ -124,7 +124,8 @@ def blocks(
 
 def _transformed(residual: Residual, samples: Samples, value: np.ndarray):
     """Values after the transform, and its slope there."""
-    cosines = jnp.asarray(samples.cosine)[:, None], jnp.asarray(samples.wo)[:, 2:]
+    cosine, wo = (jnp.asarray(a, value.dtype) for a in (samples.cosine, samples.wo))
+    cosines = cosine[:, None], wo[:, 2:]
     value = jnp.asarray(value)
 
     def transform(value):

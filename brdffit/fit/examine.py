@@ -1,14 +1,15 @@
 """The solution looked at: errors, bounds, costs under every residual, in words."""
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 import optimistix as optx
 
+from brdffit.compiled import compiled
 from brdffit.fit import structure
 from brdffit.fit.residual import RESIDUALS
 from brdffit.fit.search import Search
@@ -16,6 +17,7 @@ from brdffit.fit.transforms import Layout, to_natural
 from brdffit.fit.uncertainty import uncertainty
 
 AT_BOUND = 1e-7  # distance from a bound, in widths of the interval
+NEARBY = 0.02  # distance from a bound within which to try whether it serves as well
 STATUS = (
     (optx.RESULTS.successful, "converged"),
     (
@@ -29,7 +31,7 @@ STATUS = (
 def examine(
     problem: structure.Problem,
     found: Search,
-    held: list[int],
+    held: Mapping[int, float],
     count: int,
     known_sigma: bool,
 ) -> dict[str, Any]:
@@ -38,17 +40,16 @@ def examine(
     Args:
         problem: The fit, with its samples in double precision.
         found: The solution.
-        held: Places of parameters that were fixed.
+        held: Values of the parameters that were fixed, by place.
         count: Number of values used.
         known_sigma: True when the weights are inverse variances.
     """
-    layout, x = problem.layout, found.x
-    equations, tallies, natural, slopes = jax.tree.map(
-        np.asarray, _at(problem, jnp.asarray(x))
-    )
+    layout = problem.layout
     lower, upper = np.asarray(problem.lower), np.asarray(problem.upper)
+    x, (equations, tallies, natural, slopes) = _settled(problem, found.x)
+    natural[list(held)] = list(held.values())
     near = AT_BOUND * (upper - lower)
-    fixed = np.isin(np.arange(len(x)), held)
+    fixed = np.isin(np.arange(len(x)), list(held))
     low, high = ~fixed & (x <= lower + near), ~fixed & (x >= upper - near)
     cost = float(equations.cost)
     freedom = count - int(np.sum(~fixed & ~low & ~high))
@@ -100,7 +101,31 @@ def examine(
     }
 
 
-@eqx.filter_jit
+def _settled(problem: structure.Problem, x: np.ndarray):
+    """The solution, moved onto each nearby bound that costs nothing.
+
+    Where a parameter enters as a square, the slope of the cost vanishes at its bound 0
+    and a solver only creeps there. Returns the point and what `_at` says of it.
+    """
+
+    def look(x):
+        return jax.tree.map(np.array, _at(problem, jnp.asarray(x)))
+
+    facts = look(x)
+    bounds = np.asarray(problem.lower), np.asarray(problem.upper)
+    for place in range(len(x)):
+        for bound in bounds:
+            distance = abs(x[place] - bound[place])
+            if 0 < distance < NEARBY * (bounds[1] - bounds[0])[place]:
+                moved = x.copy()
+                moved[place] = bound[place]
+                there = look(moved)
+                if there[0].cost <= facts[0].cost + facts[0].rounding:
+                    x, facts = moved, there
+    return x, facts
+
+
+@compiled
 def _at(problem: structure.Problem, x):
     """Normal equations, costs, values and their slopes at one point."""
     places = tuple(range(x.shape[0]))

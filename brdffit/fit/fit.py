@@ -81,7 +81,7 @@ def fit(
     layout = Layout.of(brdf)
     _require_data(use, layout, samples, residual)
     with jax.enable_x64(True):
-        held = [p for name in fixed or {} for p in layout.places[name]]
+        held = _held(layout, fixed or {})
         x0 = _starts(layout, brdf, starts, held, given=not isinstance(model, str))
         problem = bounded_problem(layout, brdf, residual, held)
         found = search(problem, samples, use, x0, precision, max_steps)
@@ -160,21 +160,36 @@ def _require_data(use, layout: Layout, samples: Samples, residual: Residual) -> 
         )
 
 
-def _starts(layout, brdf, count, held, given: bool) -> np.ndarray:
+def _held(layout: Layout, fixed: Mapping) -> dict[int, float]:
+    """Values of the fixed parameters, by place."""
+    return {
+        place: float(value)
+        for name, given in fixed.items()
+        for place, value in zip(
+            layout.places[name],
+            np.broadcast_to(given, len(layout.places[name])),
+            strict=True,
+        )
+    }
+
+
+def _starts(layout, brdf, count, held: Mapping[int, float], given: bool) -> np.ndarray:
     """Starting points; the first is the model's own when one was given."""
-    own = to_solver(layout, pack(brdf))
     spread = spread_starts(layout, max(count - given, 0))
-    spread[:, held] = own[held]
-    return np.concatenate([own[None], spread]) if given else spread
+    starts = np.concatenate([to_solver(layout, pack(brdf))[None], spread])[not given :]
+    starts[:, list(held)] = _hold_at(layout, held)
+    return starts
 
 
 def bounded_problem(
-    layout: Layout, brdf: AbstractBRDF, residual: Residual, held: Sequence[int]
+    layout: Layout,
+    brdf: AbstractBRDF,
+    residual: Residual,
+    held: Mapping[int, float],
 ) -> partial[structure.Problem]:
-    """A fit that lacks only its samples; parameters at ``held`` places do not move."""
+    """A fit that lacks only its samples; the places ``held`` keep their values."""
     lower, upper = bounds(layout)
-    held = list(held)
-    lower[held] = upper[held] = to_solver(layout, pack(brdf))[held]
+    lower[list(held)] = upper[list(held)] = _hold_at(layout, held)
     return partial(
         structure.Problem,
         channels=channel_models(brdf),
@@ -183,6 +198,12 @@ def bounded_problem(
         layout=layout,
         residual=residual,
     )
+
+
+def _hold_at(layout: Layout, held: Mapping[int, float]) -> np.ndarray:
+    natural = np.array([p.typical[0] for p in layout.known])
+    natural[list(held)] = list(held.values())
+    return to_solver(layout, natural)[list(held)]
 
 
 def _fitted(brdf: AbstractBRDF, natural: Mapping[str, np.ndarray]) -> AbstractBRDF:

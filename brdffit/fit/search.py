@@ -9,6 +9,7 @@ import numpy as np
 import optimistix as optx
 from jaxtyping import Array, Bool, Float, Int
 
+from brdffit.compiled import compiled
 from brdffit.fit import structure
 from brdffit.fit.blocks import blocks
 from brdffit.fit.solve import BoundedLevenbergMarquardt
@@ -21,7 +22,7 @@ SAME_BASIN = 1e-3  # relative difference in cost below which two minima are one
 
 
 class Minima(eqx.Module):
-    """Where starts ended.
+    """Where starts ended, or where one did.
 
     Attributes:
         x: All parameters in solver coordinates.
@@ -31,10 +32,10 @@ class Minima(eqx.Module):
         status: Outcome of each solve.
     """
 
-    x: Float[Array, "start n"]
-    cost: Float[Array, " start"]
-    rounding: Float[Array, " start"]
-    steps: Int[Array, " start"]
+    x: Float[Array, "*start n"]
+    cost: Float[Array, "*start"]
+    rounding: Float[Array, "*start"]
+    steps: Int[Array, "*start"]
     status: optx.RESULTS
 
 
@@ -84,12 +85,12 @@ def search(
     if len(rows) > SCREEN and len(starts) > 1:
         few = _screen(samples, rows)
         sample = problem(blocks=blocks(samples.take(few), use[few], residual, dtype))
-        met = solve(sample, jnp.asarray(starts), rtol, max_steps)
+        met = solve(sample, jnp.asarray(starts), rtol=rtol, max_steps=max_steps)
         # always as many, so that one program serves: the best stands in for absent ones
         finalists = np.resize(_distinct(met)[:FINALISTS], FINALISTS)
         starts = np.asarray(met.x)[finalists]
     whole = problem(blocks=blocks(samples, use, residual, dtype))
-    final = solve(whole, jnp.asarray(starts), rtol, max_steps)
+    final = solve(whole, jnp.asarray(starts), rtol=rtol, max_steps=max_steps)
     met = final if met is None else met
     near = np.asarray(met.cost) <= np.nanmin(met.cost) + _same(met)
     best = int(np.nanargmin(final.cost))
@@ -126,11 +127,13 @@ def _distinct(met: Minima) -> np.ndarray:
     return order[new & np.isfinite(cost[order])]
 
 
-@eqx.filter_jit
-def solve(
+def _solve(
     problem: structure.Problem, starts: Array, rtol: float, max_steps: int
 ) -> Minima:
-    """Solve from every start at once.
+    """Solve from every start, one after the other in one program.
+
+    Each start takes the steps that it needs and no more; batched, all would take those
+    of the slowest, and the small matrix products of a batch are slow on a CPU.
 
     Where the residual is affine the solver sees the nonlinear parameters alone;
     otherwise it sees all, and the linear ones start where they fit best.
@@ -172,4 +175,7 @@ def solve(
             status=solution.result,
         )
 
-    return jax.vmap(from_start)(starts)
+    return jax.lax.map(from_start, starts)
+
+
+solve = compiled(_solve, static=("rtol", "max_steps"))

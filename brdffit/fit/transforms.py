@@ -125,7 +125,9 @@ def bounds(layout: Layout) -> tuple[np.ndarray, np.ndarray]:
 
 def pack(brdf: AbstractBRDF) -> np.ndarray:
     """Parameter values of a model as one vector."""
-    return np.concatenate([np.atleast_1d(v) for v in values(brdf).values()])
+    return np.concatenate([np.atleast_1d(v) for v in values(brdf).values()]).astype(
+        float
+    )
 
 
 def unpack(layout: Layout, brdf: AbstractBRDF, natural: Array) -> AbstractBRDF:

@@ -82,7 +82,7 @@ def test_streamed_equations_are_those_of_the_dense_jacobian(name, residual, samp
     with jax.enable_x64(True):
         brdf, layout, x = middle(MODELS[name])
         data = blocks(samples, usable(samples, residual), residual, np.dtype(float))
-        problem = bounded_problem(layout, brdf, residual, [])(blocks=data)
+        problem = bounded_problem(layout, brdf, residual, {})(blocks=data)
         found = jax.jit(structure.stream)(problem, jnp.asarray(x))
         residuals = plain_residual(brdf, layout, samples, residual)
         r, jacobian = jax.jit(lambda x: (residuals(x), jax.jacfwd(residuals)(x)))(x)
@@ -99,7 +99,7 @@ def test_projection_eliminates_the_linear_parameters(name, samples):
     with jax.enable_x64(True):
         brdf, layout, x = middle(MODELS[name])
         data = blocks(samples, usable(samples, residual), residual, np.dtype(float))
-        problem = bounded_problem(layout, brdf, residual, [])(blocks=data)
+        problem = bounded_problem(layout, brdf, residual, {})(blocks=data)
         nonlinear = problem.nonlinear_places
         projected, linear = jax.jit(structure.project)(
             problem, jnp.asarray(x[nonlinear])
@@ -150,6 +150,6 @@ def test_values_of_no_use_change_nothing(samples):
         costs = []
         for data in (samples, spoiled):
             laid = blocks(data, usable(data, residual), residual, np.dtype(float))
-            problem = bounded_problem(layout, brdf, residual, [])(blocks=laid)
+            problem = bounded_problem(layout, brdf, residual, {})(blocks=laid)
             costs.append(float(structure.stream(problem, jnp.asarray(x)).cost))
     assert costs[0] == costs[1]
