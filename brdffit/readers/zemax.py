@@ -49,9 +49,10 @@ CHOICES = {
 
 
 def matches(path: Path, head: bytes) -> bool:  # noqa: ARG001
-    """Whether the first line that is no comment is of Zemax's header."""
+    """Whether lines that are no comments begin with labels of Zemax's header alone."""
     content = (line.split() for line in head.splitlines() if not line.startswith(b"#"))
-    return next(filter(None, content), [b""])[0] in (b"Source", b"SampleRotation")
+    labels = [words[0] for words in content if words]
+    return labels[:1] == [b"Source"] or b"AngleOfIncidence" in labels
 
 
 def load(path: Path | str) -> Measurement:

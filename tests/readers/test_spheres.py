@@ -1,7 +1,9 @@
 import dataclasses
 
 import numpy as np
+import OpenImageIO
 import pytest
+import scipy.io
 
 from brdffit import MODELS, images
 from brdffit.readers import exr_stack, sphere_exr, sphere_photos
@@ -101,8 +103,6 @@ def test_saturated_channels_are_masked(tmp_path):
 
 
 def test_normals_come_from_the_outline_or_from_a_file(tmp_path):
-    import scipy.io
-
     folder = specimens.sphere_photos(tmp_path, resolution=40)
     outline = sphere_photos.load(folder)
     centre = (2 * np.arange(40) + 1) / 40 - 1
@@ -145,7 +145,7 @@ def test_a_wrong_folder_is_one_sentence(tmp_path, name, content, sentence):
 
 def test_8_bit_photographs_are_refused(tmp_path):
     folder = specimens.sphere_photos(tmp_path)
-    images.write_preview(folder / "001.png", np.ones((12, 12, 3), np.float32))
+    OpenImageIO.ImageBuf(np.ones((12, 12, 3), np.uint8)).write(str(folder / "001.png"))
     with pytest.raises(ValueError, match="8 bits"):
         sphere_photos.load(folder)
 

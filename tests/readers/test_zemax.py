@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from brdffit.readers import fred, zemax
+from brdffit.readers import format_of, fred, zemax
 from tests.data import shared_data
 from tests.readers import specimens
 
@@ -103,3 +103,15 @@ def test_specular_values_are_those_of_the_file():
     mirror = np.isclose(measured.wo, measured.wi * [-1, -1, 1]).all(axis=1)
     lit = np.isclose(measured.wi[:, 2], np.cos(np.radians(50)))
     assert set(measured.f_r[mirror & lit, 0]) == {0.09325}
+
+
+def test_the_order_of_the_header_does_not_matter(tmp_path):
+    path = specimens.zemax(tmp_path)
+    before = zemax.load(path)
+    text = path.read_text()
+    moved = text.replace("Source\tMeasured\n", "").replace(
+        "ScatterType", "Source\tMeasured\nScatterType"
+    )
+    path.write_text(moved)
+    assert format_of(path) == "zemax"
+    np.testing.assert_array_equal(zemax.load(path).f_r, before.f_r)
