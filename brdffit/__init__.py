@@ -4,7 +4,9 @@ The package reads from top to bottom; a module imports only from lines above its
 
     types, numerics        shapes; functions with finite gradients
     files, names           files whole or absent; names looked up once
+    compiled, cache        compiler options; compiled programs, kept on disk
     geometry, parameters   directions; bounds, units and symbols
+    half_difference        the grid of angles of MERL files
     microfacet             Fresnel, ndf, masking-shadowing
     models                 one BRDF per file
     albedo                 integrals of a BRDF
@@ -14,7 +16,6 @@ The package reads from top to bottom; a module imports only from lines above its
     readers, writers       one file format per file
     fit                    residual -> solver -> result
     plots                  one kind of figure per file
-    cache                  compiled programs, kept on disk
     cli                    the command line, one command per file
 
 Names are loaded when first used, so that ``import brdffit`` costs nothing.

@@ -111,7 +111,7 @@ def about(axis: Direction) -> Rule:
 
     def ray(chi: Scalar) -> tuple[Float[Array, "3 node"], Nodes]:
         cos_chi, sin_chi = jnp.cos(chi), jnp.sin(chi)
-        end = jnp.arctan2(z, x * cos_chi + y * sin_chi)
+        end = numerics.arctan2(z, x * cos_chi + y * sin_chi)
         psi = end * unit
         sin_psi = jnp.sin(psi)
         local = jnp.stack([sin_psi * cos_chi, sin_psi * sin_chi, jnp.cos(psi)])

@@ -14,12 +14,13 @@ import jax.numpy as jnp
 
 from brdffit.geometry import bisector
 from brdffit.microfacet import (
+    diffraction,
     fresnel,
     masking_shadowing as masking,
     multiple_scattering,
     ndf,
 )
-from brdffit.models import MODELS, principled
+from brdffit.models import MODELS, He, principled
 from brdffit.parameters import spectral_fields
 from tests.data import shared_data
 
@@ -148,6 +149,13 @@ def v_cavity(p, i, o):
     return 4 * i[2] * o[2] * masking.v_cavity(i, o)
 
 
+def he(p):
+    lengths = {name: p[name] for name in ("sigma0", "tau")}
+    metal = {"eta": p["n"][None], "k": p["k"][None]}
+    scattered = jnp.pi * p.get("a_ud", jnp.zeros_like(p["n"]))
+    return He(**lengths, **metal, diffuse=scattered[None], wavelengths=p["lam"][None])
+
+
 def base_of_principled(p, wi, wo):
     cos_d = fresnel.cos_d(bisector(wi, wo))
     return p["base"] * principled.diffuse(wi[2], wo[2], cos_d, p["roughness"])
@@ -195,6 +203,9 @@ ENTRIES = {
     "disney_spec": model(
         "principled", base="F0", roughness="roughness", metallic=1.0, separable=True
     )._replace(select=no_anisotropy),
+    "he": Entry(lambda p, wi, wo: he(p)(wi, wo)[0], "a_ud"),
+    "he_spec": visible(lambda p, wi: he(p).specular_reflectance(wi)[0]),
+    "he_series": Entry(lambda p: diffraction.scattering_series(p["g"], p["c"])),
     "D_beckmann": slopes(ndf.beckmann, "ax", "ay"),
     "D_ggx": slopes(ndf.ggx, "ax", "ay"),
     "D_blinn": slopes(ndf.blinn, "p"),
