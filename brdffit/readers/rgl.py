@@ -1,37 +1,22 @@
-r"""RGL material database: measured materials in an adaptive parameterisation.
+"""RGL material database: measured materials, isotropic or anisotropic.
 
-The files are tensor files (see `brdffit.readers.tensor_file`). For each direction of
-incidence they hold the reflectance at points that were placed where the material is
-bright: a warp of the unit square takes them to directions of the half vector. With
-$u(\theta, \phi) = (\sqrt{2\theta/\pi}, (\phi + \pi) / 2\pi)$,
-
-$$f_r\cos\theta = \frac{D(u_h)}{4\,\sigma(u_i)}\,R\bigl(w^{-1}(u_h)\bigr),$$
-
-where D, sigma and R are tables and w is the warp by the table of visible normals. R has
-three channels in RGB files, which may be negative where a colour lies outside of the
-gamut, and one for each wavelength in spectral files.
-
-Source:
-    J. Dupuy and W. Jakob, "An Adaptive Parameterization for Efficient Material
-    Acquisition and Rendering", SIGGRAPH Asia 2018,
-    https://doi.org/10.1145/3272127.3275059
+The files are tensor files (see `brdffit.readers.tensor_file`) with the tables of an
+adaptive parameterisation (see `brdffit.readers.rgl_material`). RGB files have three
+channels, which may be negative where a colour lies outside of the gamut; spectral files
+have one for each wavelength.
 """
 
 from pathlib import Path
 
-import numpy as np
-
 from brdffit.readers import tensor_file, validity
-from brdffit.readers.adaptive_warp import Slices, Table, Warp
-from brdffit.readers.angles import directions
+from brdffit.readers.rgl_material import Material
+from brdffit.readers.rgl_nodes import nodes
 from brdffit.samples import Measurement
 from brdffit.types import Values, Vectors
 
 DESCRIPTION = "RGL material: measured reflectance in an adaptive parameterisation"
 SUFFIXES = (".bsdf",)
 BEGINS = "with the word `tensor_file`"
-
-AT_ONCE = 4096  # pairs of directions; bounds the memory that interpolation needs
 
 
 def matches(path: Path, head: bytes) -> bool:  # noqa: ARG001
@@ -42,17 +27,15 @@ def matches(path: Path, head: bytes) -> bool:  # noqa: ARG001
 def load(path: Path | str) -> Measurement:
     """Reflectance at the points where the material was measured.
 
-    These are the nodes of the table of reflectance, for each direction of incidence.
     ``solid_angle`` is what each stands for among the directions to the viewer, in sr.
-    Values are those of the file times the factor above, in single precision; negative
-    ones are kept and masked.
+    Negative values are kept and masked.
 
     Raises:
         ValueError: The file is damaged or is no material of the database.
         OSError: The file cannot be read.
     """
     material = Material(path)
-    wi, wo, solid_angle, f_r = material.measured()
+    wi, wo, f_r, solid_angle = nodes(material)
     return validity.measurement(
         path,
         wi,
@@ -74,184 +57,3 @@ def evaluate(path: Path | str, wi: Vectors, wo: Vectors) -> Values:
         OSError: The file cannot be read.
     """
     return Material(path)(wi, wo)
-
-
-class Material:
-    """A material of the database.
-
-    Attributes:
-        name: Its description.
-        channels: R, G, B or the wavelengths.
-    """
-
-    def __init__(self, path: Path | str):
-        """Read a file.
-
-        Raises:
-            ValueError: The file is damaged or is no material of the database.
-            OSError: The file cannot be read.
-        """
-        self._path = Path(path)
-        self._arrays = tensor_file.read(path)
-        self._theta_i = self._floats("theta_i", 1).astype(np.float64)
-        self._phi_i = self._floats("phi_i", 1).astype(np.float64)
-        grid = (len(self._phi_i), len(self._theta_i))
-        if "spectra" in self._arrays:
-            wavelengths = self._floats("wavelengths", 1)
-            self.channels = tuple(f"{length:g} nm" for length in wavelengths)
-            reflectance = self._floats("spectra", 5, *grid, len(wavelengths))
-        else:
-            self.channels = ("R", "G", "B")
-            reflectance = self._floats("rgb", 5, *grid, 3)
-        nodes = (self._phi_i, self._theta_i)
-        try:
-            self._warp = Warp(self._floats("vndf", 4, *grid), *nodes)
-        except ValueError as error:
-            raise self._error(f"array `vndf` is no density: {error}") from error
-        self._reflectance = Table(reflectance, *nodes, channels=len(self.channels))
-        self._ndf = Table(self._floats("ndf", 2))
-        self._sigma = Table(self._floats("sigma", 2))
-        # One or two azimuths of incidence: the material is isotropic, and azimuths of
-        # the half vector count from that of the light.
-        self._isotropic = len(self._phi_i) <= 2
-        self._scaled = bool(self._arrays.get("jacobian", np.ones(1)).any())
-        self.name = self._description()
-
-    @np.errstate(all="ignore")  # a damaged table gives NaN, not a warning
-    def __call__(self, wi: Vectors, wo: Vectors) -> Values:
-        """Reflectance ``f_r (N, C)``; 0 where a direction is not above the horizon."""
-        wi, wo = np.asarray(wi, np.float64), np.asarray(wo, np.float64)
-        f_r = np.zeros((len(wi), len(self.channels)))
-        seen = np.flatnonzero((wi[:, 2] > 0) & (wo[:, 2] > 0))
-        for start in range(0, len(seen), AT_ONCE):
-            rows = seen[start : start + AT_ONCE]
-            f_r[rows] = self._evaluate(*self._folded(wi[rows], wo[rows]))
-        return f_r
-
-    def _evaluate(self, wi: Vectors, wo: Vectors) -> Values:
-        half = wi + wo
-        half /= np.linalg.norm(half, axis=1, keepdims=True)
-        theta_i, phi_i = angles(wi)
-        theta_h, phi_h = angles(half)
-        u_i = square(theta_i, phi_i)
-        u_h = square(theta_h, phi_h - phi_i if self._isotropic else phi_h)
-        u_h[:, 1] -= np.floor(u_h[:, 1])
-        slices = self._warp.slices(phi_i, theta_i)
-        value = self._reflectance(self._warp.invert(u_h, slices), slices)
-        return value * self._scale(u_i, u_h) / wo[:, 2:]
-
-    def _scale(self, u_i: np.ndarray, u_h: np.ndarray) -> np.ndarray:
-        """``D / (4 sigma)``, or 1 in files whose reflectance holds it already."""
-        if not self._scaled:
-            return np.ones((len(u_h), 1))
-        sigma = self._sigma(u_i, self._sigma.slices())
-        return self._ndf(u_h, self._ndf.slices()) / (4 * sigma)
-
-    def _folded(self, wi: Vectors, wo: Vectors) -> tuple[Vectors, Vectors]:
-        """Directions turned into the part of the circle that was measured.
-
-        Half of the azimuths are enough for a surface that looks the same when turned
-        by 180 degrees, a quarter for one that also has a plane of symmetry.
-        """
-        span = np.ptp(self._phi_i)
-        parts = 1 if self._isotropic or span == 0 else round(2 * np.pi / float(span))
-        if parts < 2:
-            return wi, wo
-        sign = -np.where(wi[:, :2] < 0, -1.0, 1.0)
-        if parts < 4:
-            sign[:, 0] = sign[:, 1]
-        flip = np.concatenate([sign, np.ones((len(wi), 1))], axis=1)
-        return wi * flip, wo * flip
-
-    @np.errstate(all="ignore")  # what is not finite is masked
-    def measured(self) -> tuple[Vectors, Vectors, np.ndarray, Values]:
-        """Directions, solid angle and reflectance at all nodes of the file."""
-        grid = (self._reflectance.rows, self._reflectance.columns)
-        nodes = lattice(*(np.linspace(0, 1, count) for count in grid))
-        quarters = lattice(*(midpoints(2 * (count - 1)) for count in grid))
-        incidence = lattice(self._phi_i, self._theta_i)
-        shape = (len(incidence), len(nodes))
-        wi, wo = np.empty((2, *shape, 3))
-        solid_angle = np.empty(shape)
-        f_r = np.empty((*shape, len(self.channels)), np.float32)
-        for index, (theta_i, phi_i) in enumerate(incidence):
-            wi[index] = directions(theta_i, phi_i)
-            u_h = self._warp.sample(nodes, index)
-            wo[index], _ = self._mirrored(u_h, wi[index, 0], phi_i)
-            u_i = np.broadcast_to(square(theta_i, phi_i), u_h.shape)
-            cos_o = np.maximum(wo[index, :, 2:], validity.HORIZON)
-            value = self._reflectance.values[index].T
-            f_r[index] = value * self._scale(u_i, u_h) / cos_o
-            # A node stands for the four quarter patches around it.
-            u_h = self._warp.sample(quarters, index)
-            around, stretch = self._mirrored(u_h, wi[index, 0], phi_i)
-            slices: Slices = np.full((1, 1), index), np.ones((1, 1))
-            size = stretch / self._warp(u_h, slices)[:, 0] / len(quarters)
-            size /= (self._warp.rows - 1) * (self._warp.columns - 1)
-            size = np.where(around[:, 2] > 0, size, 0)
-            size = np.pad(size.reshape(2 * grid[0] - 2, 2 * grid[1] - 2), 1)
-            solid_angle[index] = (
-                size.reshape(grid[0], 2, grid[1], 2).sum((1, 3)).ravel()
-            )
-        return (
-            wi.reshape(-1, 3),
-            wo.reshape(-1, 3),
-            solid_angle.reshape(-1),
-            f_r.reshape(-1, len(self.channels)),
-        )
-
-    def _mirrored(
-        self, u_h: np.ndarray, wi: np.ndarray, phi_i: float
-    ) -> tuple[Vectors, np.ndarray]:
-        """Light mirrored at half vectors, and solid angle per unit of the square."""
-        theta_h, phi_h = u_h[:, 0] ** 2 * np.pi / 2, (2 * u_h[:, 1] - 1) * np.pi
-        half = directions(theta_h, phi_h + phi_i if self._isotropic else phi_h)
-        cos_d = half @ wi
-        of_half = 2 * np.pi**2 * u_h[:, 0] * np.sin(theta_h)
-        return 2 * cos_d[:, None] * half - wi, of_half * 4 * np.abs(cos_d)
-
-    def _floats(self, name: str, dimensions: int, *sizes: int) -> np.ndarray:
-        """An array of the file, whose first sizes must be these."""
-        array = self._arrays.get(name)
-        if array is None:
-            raise self._error(f"it has no array `{name}`")
-        fits = array.ndim == dimensions and array.shape[: len(sizes)] == sizes
-        if not fits or array.dtype.kind != "f" or not array.size:
-            raise self._error(f"array `{name}` has shape {array.shape}")
-        if dimensions > 1 and min(array.shape[-2:]) < 2:
-            raise self._error(f"the grid of array `{name}` is smaller than 2 x 2")
-        if dimensions == 1 and not (
-            np.isfinite(array).all() and (np.diff(array) > 0).all()
-        ):
-            raise self._error(f"array `{name}` does not increase")
-        return array
-
-    def _description(self) -> str:
-        text = self._arrays.get("description", np.zeros(0, "u1")).tobytes()
-        return " ".join(text.decode(errors="replace").split()) or self._path.stem
-
-    def _error(self, reason: str) -> ValueError:
-        return ValueError(f"`{self._path}` is not a complete RGL material: {reason}.")
-
-
-def angles(w: Vectors) -> tuple[np.ndarray, np.ndarray]:
-    """Polar angle, exact near the normal too, and azimuth."""
-    x, y, z = w.T
-    chord = np.sqrt(x * x + y * y + (z - 1) ** 2)
-    return 2 * np.arcsin(np.clip(chord / 2, 0, 1)), np.arctan2(y, x)
-
-
-def square(theta: np.ndarray | float, phi: np.ndarray | float) -> np.ndarray:
-    """Points of the unit square for polar angles and azimuths."""
-    return np.stack([np.sqrt(theta * 2 / np.pi), (phi + np.pi) / (2 * np.pi)], axis=-1)
-
-
-def lattice(rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
-    """All pairs ``(column, row)``, row by row."""
-    y, x = np.meshgrid(rows, columns, indexing="ij")
-    return np.stack([x.ravel(), y.ravel()], axis=1)
-
-
-def midpoints(count: int) -> np.ndarray:
-    """Centres of equal parts of [0, 1]."""
-    return (np.arange(count) + 0.5) / count
