@@ -64,6 +64,10 @@ def examine(
         variance=variance,
         labels=layout.labels,
     )
+    for place in np.flatnonzero((low | high) & (np.diag(equations.hessian) == 0)):
+        if (error := _error_of_a_square(problem, x, place, equations, variance)) >= 0:
+            errors.undetermined.pop(layout.labels[place], None)
+            errors.standard_errors[place] = error * abs(slopes[place])
     at_bound = {
         layout.labels[i]: f"`{layout.labels[i]}` is at its {side} bound "
         f"{getattr(layout.known[i], side):g}."
@@ -123,6 +127,22 @@ def _settled(problem: structure.Problem, x: np.ndarray):
                 if there[0].cost <= facts[0].cost + facts[0].rounding:
                     x, facts = moved, there
     return x, facts
+
+
+def _error_of_a_square(problem, x, place, equations, variance) -> float:
+    """Standard error of a parameter on a bound where the slope of the model vanishes.
+
+    The model is even about the bound, so the cost rises with the fourth power; how fast
+    is read off a step away. Negative when it does not rise: then nothing depends on it.
+    """
+    lower, upper = problem.lower[place], problem.upper[place]
+    step = NEARBY * float(upper - lower)
+    away = x.copy()
+    away[place] += step if x[place] <= lower else -step
+    rise = float(_at(problem, jnp.asarray(away))[0].cost - equations.cost)
+    if rise <= equations.rounding:
+        return -1.0
+    return step * (variance / 2 / rise) ** 0.25
 
 
 @compiled

@@ -8,6 +8,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from brdffit.catalogue import from_name
 from brdffit.fit import structure
 from brdffit.fit.blocks import blocks, usable
 from brdffit.fit.examine import examine
@@ -22,7 +23,7 @@ from brdffit.fit.transforms import (
     pack,
     to_solver,
 )
-from brdffit.models import MODELS, AbstractBRDF
+from brdffit.models import AbstractBRDF
 from brdffit.names import look_up
 from brdffit.parameters import check, registry_name, replace, values
 from brdffit.samples import Measurement, Samples, as_samples
@@ -43,8 +44,8 @@ def fit(
     """Fit the parameters of a model to measured or simulated reflectance.
 
     Args:
-        model: Name of a model, which takes the channels of the data, or a model, whose
-            values are one more start.
+        model: Name of a model, or of a sum such as ``ggx+ggx_lobe``, which takes the
+            channels of the data; or a model, whose values are one more start.
         data: What to explain.
         residual: Comparison whose squares are minimised, by name or itself; by default
             `log` for reflectance and `cosine_weighted` for images.
@@ -67,6 +68,8 @@ def fit(
         raise ValueError(
             f"Precision must be `float64` or `float32`, but is `{precision}`."
         )
+    if starts < 1:
+        raise ValueError(f"`starts` must be 1 or above, but is {starts}.")
     samples = as_samples(data)
     if samples.value is None:
         raise ValueError(
@@ -125,23 +128,21 @@ def _model(model: str | AbstractBRDF, channels: int) -> AbstractBRDF:
                 f"the data, but has {layout.channels}."
             )
         return model
-    default = look_up(MODELS, model, "Model")()
-    sized = {
-        name: jnp.broadcast_to(value[0], (channels,))
-        for name, value in values(default).items()
-        if value.ndim
-    }
-    return replace(default, sized)
+    return from_name(model, channels)
 
 
 def _hold(brdf: AbstractBRDF, fixed: Mapping) -> AbstractBRDF:
     current = values(brdf)
     for name in fixed:
-        look_up(current, name, f"Parameter of `{registry_name(brdf)}`")
-    given = {
-        name: jnp.broadcast_to(jnp.asarray(value, float), current[name].shape)
-        for name, value in fixed.items()
-    }
+        look_up(current, name, "Parameter")
+    given = {name: jnp.asarray(value, float) for name, value in fixed.items()}
+    for name, value in given.items():
+        if value.size not in (1, current[name].size):
+            raise ValueError(
+                f"Parameter `{name}` of `{registry_name(brdf)}` must be held at "
+                f"{current[name].size} numbers or one, but is given {value.size}."
+            )
+        given[name] = jnp.broadcast_to(value.squeeze(), current[name].shape)
     return replace(brdf, given)
 
 

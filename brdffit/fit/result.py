@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from brdffit.catalogue import description, from_description
 from brdffit.files import replacing
-from brdffit.models import MODELS, AbstractBRDF
-from brdffit.parameters import parameters
+from brdffit.models import AbstractBRDF
 
 
 @dataclasses.dataclass(frozen=True)
@@ -89,12 +89,8 @@ class FitResult:
 
     def save(self, path: str | os.PathLike) -> None:
         """Write the result as JSON, which `load_result` reads back."""
-        options = {
-            f.name: getattr(self.brdf, f.name)
-            for f in dataclasses.fields(self.brdf)
-            if f.metadata.get("static")
-        }
-        text = json.dumps(self.to_dict() | {"options": options}, indent=2)
+        content = self.to_dict() | {"brdf": description(self.brdf)}
+        text = json.dumps(content, indent=2, allow_nan=False)
         with replacing(Path(path)) as temporary:
             temporary.write_text(text + "\n")
 
@@ -109,20 +105,16 @@ def load_result(path: str | os.PathLike) -> FitResult:
     path = Path(path)
     try:
         fields = json.loads(path.read_text())
-        model = MODELS[fields["model"]]
-        options = fields.pop("options")
-        arrays = {n: _array(v) for n, v in fields["parameters"].items()}
-        fields["parameters"] = arrays
-        errors = fields["standard_errors"].items()
-        fields["standard_errors"] = {n: _array(v) for n, v in errors}
+        brdf = from_description(fields.pop("brdf"))
+        for name in ("parameters", "standard_errors"):
+            fields[name] = {n: _array(v) for n, v in fields[name].items()}
         fields["correlation"] = np.array(fields["correlation"])
         for name in ("labels", "channels"):
             fields[name] = tuple(fields[name])
         for name in ("aicc", "bic"):
             fields[name] = _number(fields[name])
-        brdf = model(**{n: arrays[n] for n in parameters(model)}, **options)
         return FitResult(brdf=brdf, **fields)
-    except (json.JSONDecodeError, UnicodeDecodeError, KeyError, TypeError) as error:
+    except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise ValueError(
             f"File `{path}` must be a result saved by brdffit, but it cannot be read "
             f"as one ({type(error).__name__}: {error})."
