@@ -33,8 +33,8 @@ class Entry:
         result: The fit to all directions.
         held_out: Root mean square of the residual on directions that a second fit,
             to the others, never saw.
-        tied: True when the difference from the winner on those directions is within
-            its noise.
+        tied: True when it differs from the winner on those directions by no more than
+            noise: neither in squared error nor in magnitude by two standard errors.
     """
 
     result: FitResult
@@ -128,9 +128,7 @@ def compare(
             f"Data `{samples.name}` must have at least 5 usable directions to hold "
             f"some out, but has {len(rows)}."
         )
-    shuffled = np.random.default_rng(seed).permutation(rows)
-    unseen, seen = np.split(shuffled, [max(1, round(HELD_OUT * len(rows)))])
-    seen, unseen = np.sort(seen), np.sort(unseen)
+    seen, unseen = split(rows, seed)
 
     options = {"residual": chosen, "starts": starts}
     fitted = []
@@ -155,6 +153,13 @@ def compare(
     )
 
 
+def split(rows: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows that a fit may see, and the share of `HELD_OUT` that it may not."""
+    shuffled = np.random.default_rng(seed).permutation(rows)
+    unseen, seen = np.split(shuffled, [max(1, round(HELD_OUT * len(rows)))])
+    return np.sort(seen), np.sort(unseen)
+
+
 def _squares(brdf, samples: Samples, use: np.ndarray, residual: Residual) -> np.ndarray:
     """Mean square of the residual of each direction, over its usable channels."""
     cosines = jnp.asarray(samples.cosine)[:, None], jnp.asarray(samples.wo)[:, 2:]
@@ -167,9 +172,14 @@ def _squares(brdf, samples: Samples, use: np.ndarray, residual: Residual) -> np.
 
 
 def _tied(squares: np.ndarray, best: np.ndarray) -> bool:
-    """True when the paired difference is within its own noise."""
-    difference = squares - best
-    if squares is best or len(difference) < 2:
+    """True when a model differs from the winner by no more than noise.
+
+    Errors are compared direction by direction, as squares, by which models are ranked,
+    and as magnitudes, on which a single wild direction has less of a say.
+    """
+    if squares is best or len(squares) < 2:
         return squares is best
-    noise = np.std(difference, ddof=1) / np.sqrt(len(difference))
-    return bool(np.mean(difference) <= TIE * noise)
+    differences = squares - best, np.sqrt(squares) - np.sqrt(best)
+    return all(
+        np.mean(d) <= TIE * np.std(d, ddof=1) / np.sqrt(len(d)) for d in differences
+    )
