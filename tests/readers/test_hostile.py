@@ -157,6 +157,7 @@ def test_nan_and_negative_values_are_masked_and_counted(name, tmp_path):
     ("name", "old"),
     [
         ("fred", "60\t90\t"),
+        ("fred", "\n50\t0\n"),
         ("zemax", "0\t10\t20"),
         ("lighttools", "0 30 60"),
         ("astm", "0.100000"),
