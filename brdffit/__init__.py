@@ -9,6 +9,7 @@ The package reads from top to bottom; a module imports only from lines above its
     half_difference        the grid of angles of MERL files
     microfacet             Fresnel, ndf, masking-shadowing
     models                 one BRDF per file
+    catalogue              models by name and in numbers
     albedo                 integrals of a BRDF
     samples, images        weighted directions with values; linear images
     scene                  camera, shapes, lights

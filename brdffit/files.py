@@ -48,5 +48,5 @@ def require_writable(folder: str | Path) -> None:
             with tempfile.TemporaryFile(dir=existing):
                 return
         except OSError as error:
-            reason = f"in `{existing}`, {error.strerror or error}"
+            reason = f"`{existing}` takes no new files ({error.strerror or error})"
     raise OSError(f"Folder `{folder}` cannot be written: {reason}.")

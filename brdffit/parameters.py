@@ -132,6 +132,12 @@ def check(model: eqx.Module) -> None:
 
 
 def registry_name(model: eqx.Module | type[eqx.Module]) -> str:
-    """Name of a model everywhere: that of its file."""
-    kind = model if isinstance(model, type) else type(model)
-    return kind.__module__.rpartition(".")[2]
+    """Name of a model everywhere: that of its file; of a sum, those of its parts.
+
+    A sum of `ggx` and `ggx_lobe` is called ``ggx+ggx_lobe``.
+    """
+    if isinstance(model, type):
+        return model.__module__.rpartition(".")[2]
+    fields = [getattr(model, field.name) for field in dataclasses.fields(model)]
+    parts = [registry_name(part) for part in fields if isinstance(part, eqx.Module)]
+    return "+".join(parts) or registry_name(type(model))

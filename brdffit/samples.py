@@ -190,7 +190,7 @@ def pick_channels(data: Data, names: Sequence[str]) -> Data:
     arrays = ("f_r",) if isinstance(data, Measurement) else ("weight", "value")
     known = data.channels or default_channels(getattr(data, arrays[-1]).shape[-1])
     places = {name: place for place, name in enumerate(known)}
-    picked = [look_up(places, name, f"Channel of `{data.name}`") for name in names]
+    picked = [look_up(places, name, "Channel") for name in names]
     new = {
         name: array[..., picked]
         for name in (*arrays, "sigma", "mask")

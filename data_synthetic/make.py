@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from brdffit.models import MODELS, AbstractBRDF
+from brdffit.catalogue import from_description
 from brdffit.render import (
     Noise,
     provenance,
@@ -22,20 +22,9 @@ HERE = Path(__file__).parent
 MANIFEST = tomllib.loads((HERE / "manifest.toml").read_text(encoding="utf-8"))
 
 
-def material(truth: dict[str, Any]) -> AbstractBRDF:
-    """The BRDF that an entry of the manifest describes, parts of a sum included."""
-    given = truth.get("parameters", {}) | truth
-    fields = {name: given[name] for name in given.keys() - {"model", "parameters"}}
-    parts = {
-        name: material(value) if isinstance(value, dict) else value
-        for name, value in fields.items()
-    }
-    return MODELS[truth["model"]](**parts)
-
-
 def make_sphere(entry: dict[str, Any], folder: Path) -> Path:
     """Write one image with its sidecar and preview."""
-    brdf = material(MANIFEST["materials"][entry["material"]])
+    brdf = from_description(MANIFEST["materials"][entry["material"]])
     lights = tuple(
         Directional(**light) for light in MANIFEST["lights"][entry["lights"]]
     )
@@ -47,7 +36,7 @@ def make_sphere(entry: dict[str, Any], folder: Path) -> Path:
 
 def make_table(entry: dict[str, Any], folder: Path) -> Path:
     """Write one goniometer's table, its truth in the header."""
-    brdf = material(MANIFEST["materials"][entry["material"]])
+    brdf = from_description(MANIFEST["materials"][entry["material"]])
     goniometer = Goniometer(**MANIFEST["goniometers"][entry["goniometer"]])
     noise = Noise(**entry["noise"])
     measurement = simulate_measurement(brdf, goniometer, noise, entry["name"])

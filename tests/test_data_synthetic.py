@@ -60,7 +60,7 @@ def test_a_table_made_again_is_the_same(entry, tmp_path):
 def test_an_image_is_the_render_of_its_sidecar(entry):
     path = FOLDER / entry["file"]
     truth = load_toml(path.with_suffix(".toml"))["provenance"]
-    brdf = MAKE["material"](MAKE["MANIFEST"]["materials"][entry["material"]])
+    brdf = MAKE["from_description"](MAKE["MANIFEST"]["materials"][entry["material"]])
     assert truth | description(brdf) == truth
     assert truth["noise"]["relative"] == truth["noise"]["additive"] == 0
     assert (
@@ -88,7 +88,7 @@ def test_the_example_says_that_it_is_simulated_and_from_what():
     assert any("simulated by brdffit, not measured" in line for line in lines)
     told = next(line for line in lines if line.startswith("# truth: "))
     truth = json.loads(told.removeprefix("# truth: "))
-    brdf = MAKE["material"](MAKE["MANIFEST"]["materials"][entry["material"]])
+    brdf = MAKE["from_description"](MAKE["MANIFEST"]["materials"][entry["material"]])
     assert truth | description(brdf) == truth
     assert truth["noise"]["relative"] == 0.02
     assert len(table.load(FOLDER / entry["file"])) == 1575

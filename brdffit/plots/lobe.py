@@ -87,7 +87,14 @@ def plot_lobe(
     few = len(measured) <= MANY
     marks = {"mfc": "none", "ms": 3.5} if few else {"mfc": DATA, "ms": 1.6}
     axes.plot(
-        plane.angle, measured, "o", mec=DATA, mew=0.6, label="measured", zorder=1, **marks
+        plane.angle,
+        measured,
+        "o",
+        mec=DATA,
+        mew=0.6,
+        label="measured",
+        zorder=1,
+        **marks,
     )
     highest = np.nanmax(measured)
     for (name, brdf), line in zip(models.items(), lines(len(models)), strict=True):
@@ -114,7 +121,7 @@ def predicted(brdf: AbstractBRDF, plane: Plane) -> np.ndarray:
 
 
 def label_decimals(axes: Axes) -> None:
-    """Label a logarithmic axis with plain numbers: 2 and 5 too where decades are few."""
+    """Label a logarithmic axis with plain numbers, within a few decades 2 and 5 too."""
 
     def minor(value: float, _: int) -> str:
         low, high = axes.get_ylim()

@@ -163,7 +163,9 @@ def great_circle(samples: Samples, frame: int) -> Plane | None:
 def fullest_azimuth(samples: Samples) -> float:
     """Azimuth in degrees of the plane through the normal with the most viewers."""
     _, phi = polar(samples.wo)
-    half_turns, counts = np.unique(np.round(phi / SAME) * SAME % 180, return_counts=True)
+    half_turns, counts = np.unique(
+        np.round(phi / SAME) * SAME % 180, return_counts=True
+    )
     return float(half_turns[np.argmax(counts)])
 
 

@@ -1,4 +1,4 @@
-"""Residuals: where a fit is off, against the angles of light, viewer and half vector."""
+"""Residuals: where a fit is off, against angles of light, viewer and half vector."""
 
 from collections.abc import Mapping
 

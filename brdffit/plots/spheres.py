@@ -39,7 +39,9 @@ def spheres_figure(
         results: Fits by the name to show, the best first; four are shown.
     """
     shown = {name: result.brdf for name, result in list(results.items())[:MODELS]}
-    best = f", the best {MODELS} of {len(results)} models" if len(results) > MODELS else ""
+    best = (
+        f", the best {MODELS} of {len(results)} models" if len(results) > MODELS else ""
+    )
     if isinstance(data, Samples) and data.pixels is not None:
         figure = _differences(data, shown)
         figure.suptitle(f"{data.name}: measured and fitted spheres{best}")
@@ -99,8 +101,9 @@ def _rendered(models: Mapping[str, AbstractBRDF]) -> Figure:
 
 
 def _differences(samples: Samples, models: Mapping[str, AbstractBRDF]) -> Figure:
-    """Photographs beside fits; below each fit, where it shows too much or too little."""
-    assert samples.pixels is not None and samples.value is not None
+    """Photographs beside fits; below each fit, where it is too bright or too dark."""
+    assert samples.pixels is not None  # for the type checker
+    assert samples.value is not None
     frames = spread(range(samples.pixels.shape[0]), FRAMES)
     samples = samples.take(np.isin(samples.pixels.frame, frames))
     measured = np.asarray(samples.value)

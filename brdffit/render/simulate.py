@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from brdffit.catalogue import description as description
 from brdffit.models.base import AbstractBRDF
 from brdffit.parameters import registry_name
 from brdffit.render.geometry_pass import trace
@@ -81,23 +82,3 @@ def provenance(brdf: AbstractBRDF, noise: Noise = NOISELESS) -> dict[str, Any]:
             "seed": noise.seed,
         }
     }
-
-
-def description(brdf: AbstractBRDF) -> dict[str, Any]:
-    """A BRDF in names and numbers, the parts of a sum each by itself.
-
-    Numbers are as short as their precision allows; options are told where they differ
-    from their default.
-    """
-    table: dict[str, Any] = {"model": registry_name(brdf)}
-    for field in dataclasses.fields(brdf):
-        value = getattr(brdf, field.name)
-        if isinstance(value, AbstractBRDF):
-            table[field.name] = description(value)
-        elif not field.metadata.get("static"):
-            with np.printoptions(legacy=False):
-                short = np.asarray(value).astype(str).astype(float).tolist()
-            table.setdefault("parameters", {})[field.name] = short
-        elif value != field.default:
-            table[field.name] = value
-    return table

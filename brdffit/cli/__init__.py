@@ -1,0 +1,88 @@
+"""The command line: parse, call, print. One command per file.
+
+Commands import what they compute with when they run, so that help comes at once.
+"""
+
+import contextlib
+import io
+import os
+import sys
+import warnings
+from collections.abc import Sequence
+
+from cyclopts import App, CycloptsError, Parameter
+
+from brdffit.cli.compare import compare
+from brdffit.cli.demo import demo
+from brdffit.cli.fit import fit
+from brdffit.cli.models import models
+from brdffit.cli.render import render
+from brdffit.cli.simulate import simulate
+
+DONE, NOT_CONVERGED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+def _version() -> str:
+    from importlib.metadata import version
+
+    return version("brdffit")
+
+
+app = App(
+    name="brdffit",
+    help="Fit BRDF models to measured reflectance.",
+    version=_version,
+    help_format="plaintext",
+    default_parameter=Parameter(negative=(), show_default=False),
+)
+for command in (demo, models, fit, compare, simulate, render):
+    app.command(command)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command.
+
+    Returns:
+        0 done, 1 did not converge, 2 bad input, for which one sentence stands on
+        standard error.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = _say
+            return _run(arguments)
+    except BrokenPipeError:  # the reader, such as `head`, has seen enough
+        with contextlib.suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except (CycloptsError, ValueError, OSError) as error:
+        _say(_sentence(error))
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        _say("Interrupted.")
+        return INTERRUPTED
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    status = app(
+        arguments,
+        exit_on_error=False,
+        print_error=False,
+        result_action="return_value",
+    )
+    sys.stdout.flush()
+    return status or DONE
+
+
+def _sentence(error: Exception) -> object:
+    """The sentence of an error; those of the operating system get one here."""
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"File `{error.filename}` cannot be used: {error.strerror}."
+    return error
+
+
+def _say(sentence: object, *_: object) -> None:
+    """One line on standard error."""
+    print(f"brdffit: {' '.join(str(sentence).split())}", file=sys.stderr)  # noqa: T201

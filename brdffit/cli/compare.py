@@ -1,0 +1,79 @@
+"""``brdffit compare``: many models, one measurement, ranked."""
+
+from pathlib import Path
+
+import brdffit
+from brdffit.cli import console
+from brdffit.cli.options import Channels, Json, Out, words
+
+MODELS = "lambert,oren_nayar,phong,blinn_phong,cook_torrance,beckmann,ggx"
+ALL = "all"
+PICTURES = 5  # steps of drawing
+
+
+def compare(
+    data: Path,
+    /,
+    *,
+    models: str = MODELS,
+    residual: str | None = None,
+    starts: int = 16,
+    seed: int = 0,
+    channels: Channels = None,
+    out: Out = None,
+    as_json: Json = False,
+) -> int:
+    """Fit many models to a measurement and rank them by their error on unseen data.
+
+    Exit status: 0 done, 1 a model did not converge, 2 bad input.
+
+    Args:
+        data: Table, FRED or Zemax text, EXR of a sphere, or folder of photographs.
+        models: Names with commas between them, or all. [seven of them]
+        residual: What is compared. [log for reflectance, cosine_weighted for images]
+        starts: Number of starts, spread over typical ranges. [16]
+        seed: Seed of the split into directions that are fitted and held out. [0]
+    """
+    from brdffit.cli.inputs import read_data
+    from brdffit.cli.pictures import write_pictures
+    from brdffit.cli.printing import print_comparison
+    from brdffit.cli.spreadsheet import write_tables
+    from brdffit.files import require_writable
+    from brdffit.fit import RESIDUALS
+    from brdffit.names import look_up
+    from brdffit.scene.values import whole
+
+    names = list(brdffit.MODELS) if models == ALL else words(models)
+    for name in names:
+        look_up(brdffit.MODELS, name, "Model")
+    if not names:
+        raise ValueError("Option --models must name at least one model.")
+    whole("--starts", starts, least=1)
+    whole("--seed", seed, least=0)
+    if residual:
+        look_up(RESIDUALS, residual, "Residual")
+    brdffit.enable_compilation_cache()
+    with console.progress(1 + len(names) + (PICTURES if out else 0)) as step:
+        step(f"reading {data.name}")
+        measurement = read_data(data, channels)
+        if out:
+            require_writable(out)
+        comparison = brdffit.compare(
+            measurement,
+            names,
+            residual=residual,
+            starts=starts,
+            seed=seed,
+            on_model=lambda name: step(f"fitting {name}"),
+        )
+        written = []
+        if out:
+            out.mkdir(parents=True, exist_ok=True)
+            comparison.save(out / "comparison.json")
+            written = [out / "comparison.json", *write_tables(comparison, out)]
+            written += write_pictures(measurement, comparison, out, step)
+    if as_json:
+        console.print_json(comparison.to_dict() | {"files": [str(p) for p in written]})
+    else:
+        print_comparison(comparison, written)
+    return 0 if all(e.result.converged for e in comparison.entries) else 1

@@ -1,0 +1,73 @@
+"""What a user sees: text or JSON on standard output, progress on a terminal."""
+
+import contextlib
+import json
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+WIDE = 200  # columns when the output is not a terminal
+
+
+def output() -> Console:
+    """Standard output, for tables and sentences that are shown as they are."""
+    return Console(
+        width=None if sys.stdout.isatty() else WIDE,
+        markup=False,
+        highlight=False,
+        emoji=False,
+    )
+
+
+def print_line(sentence: str) -> None:
+    """One sentence on standard output."""
+    output().print(sentence)
+
+
+def print_written(written: Sequence[Path]) -> None:
+    """The folder and the files in it, if any."""
+    if written:
+        names = ", ".join(path.name for path in written)
+        print_line(f"Written to {written[0].parent.resolve()}: {names}.")
+
+
+def print_json(content: Mapping[str, Any]) -> None:
+    """Write a mapping as JSON to standard output, where nothing else is written."""
+    sys.stdout.write(json.dumps(content, indent=2, allow_nan=False) + "\n")
+
+
+@contextlib.contextmanager
+def progress(total: int) -> Iterator[Callable[[str], None]]:
+    """A bar on a terminal, nothing elsewhere.
+
+    Args:
+        total: Number of steps.
+
+    Yields:
+        A function to call before each step, with a word for what it does.
+    """
+    from rich import progress as rich
+
+    bar = rich.Progress(
+        rich.SpinnerColumn(),
+        rich.TextColumn("{task.description}", markup=False),
+        rich.BarColumn(),
+        rich.MofNCompleteColumn(),
+        rich.TimeElapsedColumn(),
+        console=Console(stderr=True),
+        transient=True,
+        disable=not sys.stderr.isatty(),
+    )
+    task = bar.add_task("starting", total=total)
+    begun = 0
+
+    def step(description: str) -> None:
+        nonlocal begun
+        bar.update(task, description=description, completed=begun)
+        begun += 1
+
+    with bar:
+        yield step

@@ -1,0 +1,119 @@
+"""From the words of a user to data and to a BRDF."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from operator import attrgetter
+from pathlib import Path
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from brdffit.cli.options import words
+from brdffit.fit import load_result
+from brdffit.models import MODELS, AbstractBRDF
+from brdffit.names import look_up
+from brdffit.parameters import check, registry_name, replace, spectral_fields
+from brdffit.readers import load
+from brdffit.samples import Measurement, Samples, pick_channels
+from brdffit.scene import Scene, lit_sphere, load_scene
+from brdffit.scene.values import whole
+
+FIRST_LIGHT = (-0.48, 0.6, 0.64)  # upper left
+
+
+def read_data(path: Path, channels: str | None) -> Measurement | Samples:
+    """A measurement, in the channels named with commas between them, or in all.
+
+    Raises:
+        ValueError: The content is wrong, or there is no such channel.
+        OSError: The file cannot be read.
+    """
+    data = load(path)
+    return pick_channels(data, words(channels)) if channels else data
+
+
+def saved_or_named(
+    source: str,
+    given: Mapping[str, Sequence[float]],
+    channels: int | None = None,
+) -> AbstractBRDF:
+    """The model of a saved result, or one of the catalogue, with parameters changed.
+
+    Args:
+        source: File written by `FitResult.save`, or name of a model.
+        given: One number, or one for each channel, by the name of the parameter.
+        channels: Number of channels of a named model; by default as many as the lists
+            in ``given`` have, or three.
+
+    Raises:
+        ValueError: No such model or parameter, a value outside its interval, or a list
+            of another length.
+        OSError: The file cannot be read.
+    """
+    if Path(source).suffix == ".json" or Path(source).is_file():
+        return adjusted(load_result(source).brdf, given)
+    brdf = look_up(MODELS, source, "Model")()
+    longest = max((len(value) for value in given.values()), default=1)
+    wanted = channels or (longest if longest > 1 else brdf.channels)
+    sized = jax.tree.map(lambda a: jnp.repeat(a[:1], wanted) if a.ndim else a, brdf)
+    return adjusted(sized, given)
+
+
+def adjusted(brdf: AbstractBRDF, given: Mapping[str, Sequence[float]]) -> AbstractBRDF:
+    """A model with some of its parameters changed.
+
+    Raises:
+        ValueError: No such parameter, a value outside its interval, or a list of
+            another length than the model has channels.
+    """
+    kind, spectral, new = registry_name(brdf), settable(brdf), {}
+    for name, value in given.items():
+        wide = look_up(spectral, name, "Parameter")
+        if len(value) != 1 and not (wide and len(value) == brdf.channels):
+            wanted = f"1 or {brdf.channels} numbers" if wide else "one number"
+            raise ValueError(
+                f"Parameter `{name}` of `{kind}` must be {wanted}, but "
+                f"{len(value)} are given."
+            )
+        numbers = jnp.asarray(value if wide else value[0], float)
+        new[name] = jnp.broadcast_to(numbers, attrgetter(name)(brdf).shape)
+    changed = replace(brdf, new)
+    check(changed)
+    return changed
+
+
+def scene_or_sphere(
+    file: Path | None, lights: int | None, resolution: int | None
+) -> Scene:
+    """The scene of a file, or a sphere with lights evenly spread around the viewer.
+
+    Raises:
+        ValueError: The file is wrong, or a number is, or both are given.
+        OSError: The file cannot be read.
+    """
+    if file is not None:
+        if lights is not None or resolution is not None:
+            raise ValueError(
+                f"Scene `{file}` has its own lights and resolution: leave out --lights "
+                "and --resolution."
+            )
+        return load_scene(file)
+    count = whole("--lights", 1 if lights is None else lights, least=1)
+    turns = np.arange(count) * 2 * np.pi / count
+    x, y, z = FIRST_LIGHT
+    directions = [
+        (x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn), z)
+        for turn in turns
+    ]
+    return lit_sphere(256 if resolution is None else resolution, directions)
+
+
+def settable(brdf: eqx.Module) -> dict[str, bool]:
+    """Every number of a model by dotted name: True for one per channel."""
+    found = dict(spectral_fields(brdf))
+    for field in dataclasses.fields(brdf):
+        if isinstance(part := getattr(brdf, field.name), eqx.Module):
+            found |= {f"{field.name}.{n}": wide for n, wide in settable(part).items()}
+    return found

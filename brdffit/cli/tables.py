@@ -1,0 +1,171 @@
+"""Results as tables: of parameters, of residuals, of a ranking."""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from rich.console import Console
+from rich.measure import Measurement
+from rich.table import Table
+
+from brdffit.fit import FitResult
+from brdffit.fit.select import Comparison
+from brdffit.parameters import parameters
+
+LOST = "undetermined"
+MARKS = {"at bound": "{} *", LOST: "{} ?"}
+DIGITS = 6  # most significant digits of a value
+
+
+class Row(NamedTuple):
+    """One number of a fit."""
+
+    label: str
+    channel: str
+    value: float
+    error: float
+    unit: str
+    bounds: str
+    note: str
+
+    @property
+    def title(self) -> str:
+        """Label, with the name of the channel when there are several."""
+        return f"{self.label} {self.channel}".strip()
+
+
+def rows(result: FitResult) -> Iterator[Row]:
+    """One row for each number of a fit, in the order of the correlation matrix."""
+    known = parameters(result.brdf)
+    labels = iter(result.labels)
+    several = len(result.channels) > 1
+    for name, value in result.parameters.items():
+        errors = np.atleast_1d(result.standard_errors[name])
+        spectral = np.ndim(value) > 0
+        for place, number in enumerate(np.atleast_1d(value)):
+            label, error = next(labels), float(errors[place])
+            note = ""
+            if label in result.at_bound:
+                note = "at bound"
+            elif label in result.undetermined:
+                note = LOST
+            elif error == 0:
+                note = "held"
+            channel = result.channels[place] if spectral and several else ""
+            unit = known[name].unit
+            bounds = f"[{known[name].lower:g}, {known[name].upper:g}]"
+            yield Row(label, channel, float(number), error, unit, bounds, note)
+
+
+def parameter_table(result: FitResult) -> Table:
+    """Parameters with errors, units and legal intervals."""
+    table = new_table("parameter", "value", "error", "unit", "range", "note")
+    for row in rows(result):
+        value, error = rounded(row.value, row.error)
+        unit = "" if row.unit == "1" else row.unit
+        table.add_row(row.title, value, error, unit, row.bounds, row.note)
+    return table
+
+
+def residual_table(result: FitResult) -> Table:
+    """Root mean square under every residual, the minimised one marked."""
+    table = new_table("residual", "root mean square", "")
+    for name, rms in result.rms.items():
+        mark = "minimised" if name == result.residual else ""
+        table.add_row(name, f"{rms:#.4g}", mark)
+    return table
+
+
+def ranking_table(comparison: Comparison) -> Table:
+    """The ranking, the best model first."""
+    best = min(entry.result.aicc for entry in comparison.entries)
+    table = new_table(
+        *("", "model", "held-out error", "rms", "AICc", "above best"),
+        *("free numbers", "seconds", "remarks"),
+    )
+    for place, entry in enumerate(comparison.entries, start=1):
+        result = entry.result
+        remarks = []
+        if place > 1 and entry.tied:
+            remarks.append("tied with the best")
+        if not result.converged:
+            remarks.append("not converged")
+        if result.at_bound:
+            remarks.append(f"at bound: {', '.join(result.at_bound)}")
+        if result.undetermined:
+            remarks.append(f"undetermined: {', '.join(result.undetermined)}")
+        table.add_row(
+            str(place),
+            result.model,
+            f"{entry.held_out:#.4g}",
+            f"{result.rms[comparison.residual]:#.4g}",
+            f"{result.aicc:.1f}",
+            f"{result.aicc - best:.1f}",
+            str(len(result.labels)),
+            f"{result.seconds:.1f}",
+            "; ".join(remarks),
+        )
+    return table
+
+
+def side_by_side(comparison: Comparison, console: Console) -> Iterator[Table]:
+    """Every model's parameters with errors: a row each, and a column for each model.
+
+    As many tables as the width of the console asks for.
+    """
+    cells: dict[str, dict[str, str]] = {}
+    for entry in comparison.entries:
+        for row in rows(entry.result):
+            value, error = rounded(row.value, row.error)
+            text = f"{value} \N{PLUS-MINUS SIGN} {error}" if error else value
+            text = MARKS.get(row.note, "{}").format(value if error == LOST else text)
+            cells.setdefault(row.title, {})[entry.result.model] = text
+    models = [entry.result.model for entry in comparison.entries]
+    while models:
+        count = len(models)
+        while count > 1 and _width(cells, models[:count], console) > console.width:
+            count -= 1
+        yield _pivot(cells, models[:count])
+        models = models[count:]
+
+
+def _pivot(cells: dict[str, dict[str, str]], models: list[str]) -> Table:
+    table = new_table("parameter", *models)
+    for label, texts in cells.items():
+        if any(model in texts for model in models):
+            table.add_row(label, *(texts.get(model, "") for model in models))
+    return table
+
+
+def _width(cells, models: list[str], console: Console) -> int:
+    unlimited = console.options.update(max_width=10_000)
+    return Measurement.get(console, unlimited, _pivot(cells, models)).maximum
+
+
+def new_table(*headings: str) -> Table:
+    """An empty table in the look of all tables; numbers stand right."""
+    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
+    for heading in headings:
+        table.add_column(heading, overflow="fold")
+    return table
+
+
+def rounded(value: float, error: float) -> tuple[str, str]:
+    """A value and its error, to two digits of the error; the error "" when it has none.
+
+    An infinite error leaves three digits of the value, a very small one six.
+    """
+    if not math.isfinite(error):
+        return f"{value:.3g}", LOST
+    if error <= 0:
+        return f"{value:.{DIGITS}g}", ""
+    size = math.floor(math.log10(abs(value) or error))
+    decimals = 1 - math.floor(math.log10(error))
+    if not -4 <= size < DIGITS or decimals - 1 + size >= DIGITS:
+        return f"{value:.{DIGITS}g}", f"{error:.2g}"
+    places = max(decimals, 0)
+    return (
+        f"{round(value, decimals):.{places}f}",
+        f"{round(error, decimals):.{places}f}",
+    )
