@@ -74,17 +74,6 @@ def pow_complement(deficit: Real, exponent: Real) -> Real:
     return jnp.where(inside, jnp.exp(jnp.minimum(power, largest)), 0.0)
 
 
-def log_ratio(x: Real) -> Real:
-    """``log(x) / (x - 1)`` for ``x > 0``; 1 at ``x = 1``, by its series close to it."""
-    away = x - 1
-    close = jnp.abs(away) < 0.03
-    series = jnp.zeros_like(x)
-    for order in range(10, 0, -1):
-        series = 1 / order - jnp.where(close, away, 0.0) * series
-    far = jnp.where(close, 2.0, x)
-    return jnp.where(close, series, jnp.log(far) / (far - 1))
-
-
 def log1p_ratio(x: Real) -> Real:
     """``log(1 + x) / x`` for ``x > -1``, and 1 at 0, where the quotient is 0 / 0."""
     small = jnp.abs(x) < 0.03
@@ -93,6 +82,17 @@ def log1p_ratio(x: Real) -> Real:
         series = series * near + coefficient
     apart = jnp.where(small, 1.0, x)
     return jnp.where(small, series, jnp.log1p(apart) / apart)
+
+
+def log_ratio(x: Real) -> Real:
+    """``log(x) / (x - 1)`` for ``x > 0``, and 1 at 1, where the quotient is 0 / 0.
+
+    Differs from `log1p_ratio` in what is exact: here ``x``, also where it is tiny.
+    """
+    close = jnp.abs(x - 1) < 0.03
+    apart = jnp.where(close, 2.0, x)
+    near = log1p_ratio(jnp.where(close, x - 1, 0.0))
+    return jnp.where(close, near, jnp.log(apart) / (apart - 1))
 
 
 def arcsin_ratio(sine: Real, cosine: Real) -> Real:
