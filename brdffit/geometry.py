@@ -86,6 +86,26 @@ def rotate_to(axis: Direction, w: Direction) -> Direction:
     return w[0] * u + w[1] * v + w[2] * axis
 
 
+def linear_tangent(normal: Direction) -> Direction:
+    """Tangent that follows the x axis, as on a surface brushed in straight lines.
+
+    Zero where the normal is the axis itself.
+    """
+    x, y, z = normal
+    return numerics.normalize(jnp.stack([y * y + z * z, -x * y, -x * z]))
+
+
+def radial_tangent(normal: Direction) -> Direction:
+    """Tangent that runs away from the z axis, as spokes of a wheel seen from +z.
+
+    Towards +x where the normal is the axis itself.
+    """
+    x, y, z = normal
+    away = numerics.normalize(jnp.stack([x * z, y * z, -x * x - y * y]))
+    on_axis = (x == 0) & (y == 0)
+    return jnp.where(on_axis, jnp.array([1.0, 0.0, 0.0], away.dtype), away)
+
+
 def cylindrical_tangent(normal: Direction) -> Direction:
     """Tangent that runs around the y axis, as circles of latitude do on a sphere.
 
@@ -93,6 +113,14 @@ def cylindrical_tangent(normal: Direction) -> Direction:
     """
     x, _, z = normal
     return numerics.normalize(jnp.stack([z, jnp.zeros_like(z), -x]))
+
+
+TANGENTS = {
+    "linear": linear_tangent,
+    "radial": radial_tangent,
+    "cylindrical": cylindrical_tangent,
+}
+"""Tangent fields by the name that a scene calls them."""
 
 
 def shading_frame(normal: Direction, tangent: Direction) -> Float[Array, "3 3"]:

@@ -4,11 +4,13 @@ What a pixel sees and how much light falls there does not depend on the material
 is worked out once, in double precision, before anything is shaded or fitted.
 """
 
+from functools import partial
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 
-from brdffit.geometry import cylindrical_tangent, shading_frame
+from brdffit.geometry import TANGENTS, shading_frame
 from brdffit.models.base import RGB
 from brdffit.samples import Pixels, Samples, default_channels
 from brdffit.scene import Scene
@@ -47,12 +49,13 @@ def local_samples(
     """Samples of surface points with known normals, lit as in a scene.
 
     The weight of a light is its irradiance times the cosine of the incident angle (0
-    below the horizon) times the exposure. Tangents run around the y axis.
+    below the horizon) times the exposure.
 
     Args:
         normal: Unit normals in the frame of the world.
         to_viewer: Unit directions to the viewer in the same frame.
-        scene: Lights and exposure; its camera and shape are not looked at.
+        scene: Lights, exposure and field of tangents; its camera and shape are not
+            looked at.
         channels: As for `trace`.
         pixels: Where the points lie in an image.
 
@@ -66,7 +69,7 @@ def local_samples(
         )
     towards = np.stack([light.direction for light in scene.lights])
     with jax.enable_x64(True):
-        wo, wi = _to_local(normal, to_viewer, towards)
+        wo, wi = _to_local(normal, to_viewer, towards, scene.tangents)
         wo, wi = np.asarray(wo), np.asarray(wi)
     irradiance = np.stack(
         [np.broadcast_to(light.irradiance, channels) for light in scene.lights]
@@ -88,12 +91,12 @@ def _first_hit(shape, origin, direction):
     return jax.vmap(shape.intersect)(origin, direction)
 
 
-@jax.jit
-def _to_local(normal, to_viewer, towards):
+@partial(jax.jit, static_argnames="tangents")
+def _to_local(normal, to_viewer, towards, tangents):
     """Directions to the viewer ``(N, 3)`` and to all lights ``(N, L, 3)``."""
 
     def at(normal, to_viewer):
-        frame = shading_frame(normal, cylindrical_tangent(normal))
+        frame = shading_frame(normal, TANGENTS[tangents](normal))
         return frame @ to_viewer, jnp.matmul(towards, frame.T)
 
     return jax.vmap(at)(normal, to_viewer)

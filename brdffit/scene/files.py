@@ -1,6 +1,7 @@
 """Scenes as TOML files.
 
     exposure = 1.0                      # optional
+    tangents = "cylindrical"            # or linear, radial; optional
 
     [camera]
     kind = "orthographic"
@@ -68,6 +69,7 @@ def save_scene(
     """
     table = {
         "exposure": scene.exposure,
+        "tangents": scene.tangents,
         "camera": _table(scene.camera),
         "shape": _table(scene.shape),
         "lights": [_table(light) for light in scene.lights],
@@ -105,7 +107,7 @@ def _scene(table: dict[str, Any]) -> Scene:
             _part(f"lights[{index}]", light, LIGHTS)
             for index, light in enumerate(lights)
         ),
-        **{key: table[key] for key in ("exposure",) if key in table},
+        **{key: table[key] for key in ("exposure", "tangents") if key in table},
     )
 
 

@@ -6,6 +6,8 @@ from functools import partial
 
 import equinox as eqx
 
+from brdffit.geometry import TANGENTS
+from brdffit.names import look_up
 from brdffit.scene import values
 from brdffit.scene.camera import Orthographic
 from brdffit.scene.lights import Directional
@@ -21,10 +23,12 @@ class Scene(eqx.Module):
         shape: What the rays meet.
         lights: One or more lights that shine together.
         exposure: Value of a pixel for unit radiance.
+        tangents: Name of the field of tangents on the shape, one of those in
+            `geometry.TANGENTS`. Isotropic models do not depend on it.
 
     Raises:
-        ValueError: There is no light, lights differ in their number of channels, or
-            the exposure is not a positive number.
+        ValueError: There is no light, lights differ in their number of channels, the
+            exposure is not a positive number, or there is no such field of tangents.
     """
 
     camera: Orthographic
@@ -33,9 +37,11 @@ class Scene(eqx.Module):
     exposure: float = eqx.field(
         default=1.0, converter=partial(values.positive, "exposure")
     )
+    tangents: str = eqx.field(static=True, default="cylindrical")
 
     def __check_init__(self) -> None:
         """Check what can be wrong about the whole."""
+        look_up(TANGENTS, self.tangents, "`tangents`")
         if not self.lights:
             raise ValueError("`lights` must hold at least one light.")
         sizes = {light.irradiance.shape for light in self.lights} - {()}
@@ -57,6 +63,7 @@ def lit_sphere(
     directions: Sequence[values.Numbers] | AnyArray = ((-0.48, 0.6, 0.64),),
     irradiance: values.Numbers = math.pi,
     exposure: float = 1.0,
+    tangents: str = "cylindrical",
 ) -> Scene:
     """A unit sphere that fills the frame, under equal directional lights.
 
@@ -66,6 +73,7 @@ def lit_sphere(
         irradiance: Of each light, a number or one for each channel; with pi a white
             diffuse surface that faces the light has the value 1.
         exposure: Value of a pixel for unit radiance.
+        tangents: Name of the field of tangents: linear, radial or cylindrical.
     """
     lights = tuple(Directional(direction, irradiance) for direction in directions)
-    return Scene(Orthographic(resolution), Sphere(), lights, exposure)
+    return Scene(Orthographic(resolution), Sphere(), lights, exposure, tangents)

@@ -130,7 +130,8 @@ def beckmann_facets(wi, wo, f, alpha, separable):
 
 
 def cos_d(wi, wo):
-    return dot(wi, half(wi, wo))
+    # the last of a hundred digits may exceed 1, which has no sine
+    return min(mpf(1), dot(wi, half(wi, wo)))
 
 
 def cook_torrance(wi, wo, diffuse, specular, f0, alpha):

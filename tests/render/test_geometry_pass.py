@@ -52,6 +52,20 @@ def test_tangents_run_along_latitude_and_frames_are_right_handed(samples, normal
     np.testing.assert_allclose(samples.wi[:, 0], local, atol=2e-7)
 
 
+@pytest.mark.parametrize("tangents", ["linear", "radial"])
+def test_tangents_follow_the_field_that_the_scene_names(tangents, normal):
+    samples = trace(lit_sphere(SIZE, LIGHTS, tangents=tangents))
+    x, y, z = normal.T
+    along = {"linear": [1 + 0 * x, 0 * x, 0 * x], "radial": [x, y, 0 * x]}[tangents]
+    along = np.stack(along, axis=-1)
+    along[(x == 0) & (y == 0)] = [1, 0, 0]
+    tangent = along - normal * np.sum(along * normal, axis=-1, keepdims=True)
+    tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
+    light = np.array(LIGHTS[0])
+    local = np.stack([tangent, np.cross(normal, tangent), normal], axis=-2) @ light
+    np.testing.assert_allclose(samples.wi[:, 0], local, atol=2e-7)
+
+
 def test_the_local_frame_at_the_centre_is_that_of_the_world(samples):
     centre = (samples.pixels.row == SIZE // 2) & (samples.pixels.column == SIZE // 2)
     np.testing.assert_allclose(samples.wi[centre], [LIGHTS], atol=1e-7)
