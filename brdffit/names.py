@@ -1,7 +1,7 @@
 """Names given by users, looked up once, with the nearest right one suggested."""
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TypeVar
 
 Value = TypeVar("Value")
@@ -15,6 +15,13 @@ def look_up(known: Mapping[str, Value], name: str, kind: str) -> Value:
     """
     if name in known:
         return known[name]
-    near = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
-    hint = f" Did you mean `{near[0]}`?" if near else ""
-    raise ValueError(f"{kind} `{name}` must be one of {', '.join(known)}.{hint}")
+    raise ValueError(
+        f"{kind} `{name}` must be one of {', '.join(known)}.{nearest(known, name)}"
+    )
+
+
+def nearest(known: Iterable[str], name: str) -> str:
+    """A question whether the nearest of these names was meant, or nothing."""
+    plain = {other.lower(): other for other in known}
+    near = difflib.get_close_matches(name.lower(), plain, n=1, cutoff=0.5)
+    return f" Did you mean `{plain[near[0]]}`?" if near else ""
