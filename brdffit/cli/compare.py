@@ -29,11 +29,12 @@ def compare(
 
     Args:
         data: Table, FRED or Zemax text, EXR of a sphere, or folder of photographs.
-        models: Names with commas between them, or all. [seven of them]
+        models: Names with commas between them, or all; a + makes a sum. [seven]
         residual: What is compared. [log for reflectance, cosine_weighted for images]
         starts: Number of starts, spread over typical ranges. [16]
         seed: Seed of the split into directions that are fitted and held out. [0]
     """
+    from brdffit.catalogue import from_name
     from brdffit.cli.inputs import read_data
     from brdffit.cli.pictures import write_pictures
     from brdffit.cli.printing import print_comparison
@@ -45,10 +46,9 @@ def compare(
 
     names = list(brdffit.MODELS) if models == ALL else words(models)
     for name in names:
-        look_up(brdffit.MODELS, name, "Model")
+        from_name(name)
     if not names:
         raise ValueError("Option --models must name at least one model.")
-    whole("--starts", starts, least=1)
     whole("--seed", seed, least=0)
     if residual:
         look_up(RESIDUALS, residual, "Residual")
@@ -71,6 +71,9 @@ def compare(
             out.mkdir(parents=True, exist_ok=True)
             comparison.save(out / "comparison.json")
             written = [out / "comparison.json", *write_tables(comparison, out)]
+            for name, result in comparison.results.items():
+                written.append(out / f"{name}.json")
+                result.save(written[-1])
             written += write_pictures(measurement, comparison, out, step)
     if as_json:
         console.print_json(comparison.to_dict() | {"files": [str(p) for p in written]})

@@ -10,7 +10,7 @@ from brdffit.cli.compare import compare
 from brdffit.cli.options import Json
 
 EXAMPLE = Path(brdffit.__path__[0]) / "example" / "metallic_paint.csv"
-MODELS = "lambert,oren_nayar,phong,cook_torrance,ggx"
+MODELS = "lambert,phong,cook_torrance,ggx,ggx+ggx_lobe"
 
 
 def demo(

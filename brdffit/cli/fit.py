@@ -31,30 +31,27 @@ def fit(
 
     Args:
         data: Table, FRED or Zemax text, EXR of a sphere, or folder of photographs.
-        model: Name of the model; brdffit models lists them.
+        model: Name of a model, or several with + between them; see brdffit models.
         residual: What is compared. [log for reflectance, cosine_weighted for images]
         starts: Number of starts, spread over typical ranges. [16]
         fix: Parameters to hold, as in alpha=0.2.
     """
-    from brdffit.cli.inputs import read_data, saved_or_named
+    from brdffit.catalogue import from_name
+    from brdffit.cli.inputs import read_data
     from brdffit.cli.pictures import write_pictures
     from brdffit.cli.printing import print_fit
     from brdffit.files import require_writable
     from brdffit.fit import RESIDUALS
     from brdffit.names import look_up
-    from brdffit.samples import as_samples
-    from brdffit.scene.values import whole
 
     fixed = assignments(fix, "--fix")
-    look_up(brdffit.MODELS, model, "Model")
+    from_name(model)
     if residual:
         look_up(RESIDUALS, residual, "Residual")
-    whole("--starts", starts, least=1)
     brdffit.enable_compilation_cache()
     with console.progress(STEPS + (PICTURES if out else 0)) as step:
         step(f"reading {data.name}")
         measurement = read_data(data, channels)
-        saved_or_named(model, fixed, as_samples(measurement).weight.shape[-1])
         if out:
             require_writable(out)
         step(f"fitting {model}")

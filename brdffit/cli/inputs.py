@@ -6,13 +6,14 @@ from operator import attrgetter
 from pathlib import Path
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
 
+from brdffit.catalogue import from_name
 from brdffit.cli.options import words
 from brdffit.fit import load_result
-from brdffit.models import MODELS, AbstractBRDF
+from brdffit.models import AbstractBRDF
+from brdffit.models.base import RGB
 from brdffit.names import look_up
 from brdffit.parameters import check, registry_name, replace, spectral_fields
 from brdffit.readers import load
@@ -42,7 +43,7 @@ def saved_or_named(
     """The model of a saved result, or one of the catalogue, with parameters changed.
 
     Args:
-        source: File written by `FitResult.save`, or name of a model.
+        source: File written by `FitResult.save`, or name of a model or of a sum.
         given: One number, or one for each channel, by the name of the parameter.
         channels: Number of channels of a named model; by default as many as the lists
             in ``given`` have, or three.
@@ -54,11 +55,9 @@ def saved_or_named(
     """
     if Path(source).suffix == ".json" or Path(source).is_file():
         return adjusted(load_result(source).brdf, given)
-    brdf = look_up(MODELS, source, "Model")()
     longest = max((len(value) for value in given.values()), default=1)
-    wanted = channels or (longest if longest > 1 else brdf.channels)
-    sized = jax.tree.map(lambda a: jnp.repeat(a[:1], wanted) if a.ndim else a, brdf)
-    return adjusted(sized, given)
+    wanted = channels or (longest if longest > 1 else RGB)
+    return adjusted(from_name(source, wanted), given)
 
 
 def adjusted(brdf: AbstractBRDF, given: Mapping[str, Sequence[float]]) -> AbstractBRDF:

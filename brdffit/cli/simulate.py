@@ -50,7 +50,7 @@ def simulate(
     its scene. A preview (.png) stands there too.
 
     Args:
-        model: Name of a model, or file of a saved result.
+        model: Name of a model or sum, or file of a saved result.
         out: File to write, a table .csv or an image .exr.
         noise: Standard deviation of the noise, relative to each value. [0]
         additive: Standard deviation of further noise, in the unit of the values. [0]

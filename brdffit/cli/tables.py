@@ -82,10 +82,11 @@ def ranking_table(comparison: Comparison) -> Table:
     best = min(entry.result.aicc for entry in comparison.entries)
     table = new_table(
         *("", "model", "held-out error", "rms", "AICc", "above best"),
-        *("free numbers", "seconds", "remarks"),
+        *("chi-square per value", "free numbers", "seconds", "remarks"),
     )
     for place, entry in enumerate(comparison.entries, start=1):
         result = entry.result
+        chi_square = result.chi_square
         remarks = []
         if place > 1 and entry.tied:
             remarks.append("tied with the best")
@@ -100,8 +101,9 @@ def ranking_table(comparison: Comparison) -> Table:
             result.model,
             f"{entry.held_out:#.4g}",
             f"{result.rms[comparison.residual]:#.4g}",
-            f"{result.aicc:.1f}",
-            f"{result.aicc - best:.1f}",
+            f"{result.aicc:,.1f}",
+            f"{result.aicc - best:,.1f}",
+            "" if chi_square is None else f"{chi_square / result.count:#.4g}",
             str(len(result.labels)),
             f"{result.seconds:.1f}",
             "; ".join(remarks),

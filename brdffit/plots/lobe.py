@@ -17,6 +17,7 @@ from brdffit.samples import Measurement, Samples, as_samples
 
 PANELS = 4  # most panels side by side
 MODELS = 5  # most models in one panel
+POINTS = 1500  # most samples in a panel, evenly spread
 MANY = 120  # samples in a panel beyond which their marks are small
 
 
@@ -83,11 +84,12 @@ def plot_lobe(
     The linear scale ends above the highest sample; where a model goes beyond it, the
     logarithmic scale shows how far.
     """
-    measured = plane.f_r[:, channel]
-    few = len(measured) <= MANY
+    drawn = spread(range(len(plane.angle)), POINTS)
+    measured = plane.f_r[drawn, channel]
+    few = len(drawn) <= MANY
     marks = {"mfc": "none", "ms": 3.5} if few else {"mfc": DATA, "ms": 1.6}
     axes.plot(
-        plane.angle,
+        plane.angle[drawn],
         measured,
         "o",
         mec=DATA,

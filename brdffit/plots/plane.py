@@ -12,13 +12,20 @@ import numpy as np
 from jaxtyping import Float
 
 from brdffit.samples import Measurement, Samples, as_samples
-from brdffit.types import AnyArray, Vectors
+from brdffit.types import AnyArray
 
 FEWEST = 5  # samples that make a lobe
+SETTINGS = 100  # directions of incidence beyond which they count as scattered
 SAME = 0.5  # degrees within which two angles of incidence are one
 THIN = 1.5  # degrees from its plane within which a sample is in it
 WIDE = 5.0  # the same where directions are scattered
-CENTRES = (15, 30, 45, 60, 75)  # degrees, angles of incidence of scattered directions
+CENTRES = (
+    15.0,
+    30.0,
+    45.0,
+    60.0,
+    75.0,
+)  # degrees, angles of incidence of scattered directions
 CURVE = np.linspace(-90, 90, 721)  # degrees, where models are drawn
 
 
@@ -42,8 +49,8 @@ class Plane:
     angle: Float[np.ndarray, " sample"]
     f_r: Float[np.ndarray, "sample channel"]
     curve: Float[np.ndarray, " point"]
-    wi: Vectors
-    wo: Vectors
+    wi: Float[np.ndarray, "point 3"]
+    wo: Float[np.ndarray, "point 3"]
     mirror: float
 
 
@@ -71,11 +78,13 @@ def planes(data: Measurement | Samples) -> list[Plane]:
 
 
 def planes_of_incidence(samples: Samples) -> Iterator[Plane]:
-    """Planes that were measured as such, by their angle of incidence."""
+    """Planes that were measured as such, one for each direction of incidence."""
     theta, phi = polar(samples.wi[:, 0])
     phi = np.where(theta < SAME, 0, phi)
     rounded = np.round(np.stack([theta, phi], axis=1) / SAME).astype(int)
     settings, member = np.unique(rounded, axis=0, return_inverse=True)
+    if len(settings) > SETTINGS:
+        return
     several = len(np.unique(settings[:, 1])) > 1
     for number in range(len(settings)):
         here = member == number
@@ -94,7 +103,7 @@ def gathered(samples: Samples) -> Iterator[Plane]:
     theta, phi = polar(samples.wi[:, 0])
     for centre in CENTRES:
         near = np.abs(theta - centre) <= WIDE
-        title = rf"$\theta_i = {centre}\degree \pm {WIDE:.0f}\degree$"
+        title = rf"$\theta_i = {centre:.0f}\degree \pm {WIDE:.0f}\degree$"
         yield cut(samples.take(near), phi[near], centre, 0.0, WIDE, title)
 
 

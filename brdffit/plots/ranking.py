@@ -61,7 +61,7 @@ def plot_table(axes: Axes, comparison: Comparison) -> None:
         (
             f"{entry.held_out:#.4g}",
             f"{entry.result.rms[comparison.residual]:#.4g}",
-            f"{entry.result.aicc - best:.1f}",
+            f"{entry.result.aicc - best:,.1f}",
             f"{len(entry.result.labels)}",
             f"{entry.result.seconds:.1f}",
         )

@@ -6,6 +6,7 @@ A measurement without pixels is shown as spheres rendered with the fitted models
 from collections.abc import Iterable, Mapping
 
 import numpy as np
+from jaxtyping import Float
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
@@ -170,6 +171,6 @@ def _image(samples: Samples, values: Values, frame: int) -> Image:
     return canvas
 
 
-def _exposure(values: Values) -> float:
+def _exposure(values: Float[np.ndarray, "..."]) -> float:
     """Factor that shows all but the brightest percent of the lit pixels unclipped."""
     return BRIGHT / float(np.percentile(values[values > 0], 99))

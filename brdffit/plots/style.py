@@ -108,4 +108,5 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
     for path in written:
         with replacing(path) as temporary, matplotlib.rc_context(LOOK):
             figure.savefig(temporary, dpi=RESOLUTION)
+        figure.set_layout_engine("none")  # once laid out, so in every format
     return written
