@@ -10,8 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from brdffit import MODELS
-from brdffit.albedo import directional_albedo
+from brdffit import MODELS, albedo
 from brdffit.parameters import parameters, replace, values
 from tests.sampling import (
     all_pairs,
@@ -30,11 +29,10 @@ every_model = pytest.mark.parametrize("name", MODELS)
 
 REFLECTANCES = {"albedo", "base", "diffuse", "specular", "f0"}
 
-# affine in each of these alone, but declared otherwise because of the products among
-# them, or because one model has no use for a projected solve
+# affine in each of these alone, but not declared so, because of products among them
 AFFINE_UNDECLARED = {
     "ashikhmin_shirley": {"diffuse", "specular"},
-    "principled": {"specular", "sheen", "clearcoat"},
+    "principled": {"base", "metallic", "specular", "sheen", "clearcoat"},
 }
 
 
@@ -119,7 +117,8 @@ def furnace(model):
     All of it goes to the first, half to each, all to the last.
     """
     rng = generator(model, salt=1)
-    models = random_models(model, 12, rng) + corner_models(model)[:16]
+    corners = corner_models(model)
+    models = random_models(model, 8, rng) + corners[:: max(1, len(corners) // 8)]
     known = parameters(models[0])
     shares = [
         name
@@ -139,15 +138,18 @@ def furnace(model):
 def albedos(brdf, wi):
     """Directional albedo of models ``(M,)`` at directions ``(N, 3)``, one by one."""
     return jax.lax.map(
-        lambda one: jax.lax.map(lambda w: directional_albedo(one, w), wi), brdf
+        lambda one: jax.lax.map(lambda w: albedo.directional_albedo(one, w), wi), brdf
     )
 
 
 @every_model
-def test_energy_conservation_is_as_declared(name):
+def test_energy_conservation_is_as_declared(name, monkeypatch):
     """White furnace: no light comes back that was not sent."""
-    angles = [(0, 0), (40, 90), (65, 20), (80, 0), (80, 90), (87, 45)]
-    angles += [(89, 90), (89.99, 0), (89.99, 90)]
+    # half the nodes: 1e-3 is all that is asked for
+    monkeypatch.setattr(albedo, "NARROW", 64)
+    monkeypatch.setattr(albedo, "WIDE", 24)
+    angles = [(0, 0), (40, 90), (65, 20), (80, 0), (85, 90), (89, 45)]
+    angles += [(89.99, 0), (89.99, 90)]
     with jax.enable_x64(True):
         brdf = stack(furnace(MODELS[name]))
         brdf = jax.tree.map(lambda leaf: jnp.asarray(leaf, jnp.float64), brdf)
