@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
     from brdffit.cache import enable_compilation_cache as enable_compilation_cache
     from brdffit.fit import FitResult as FitResult, fit as fit
+    from brdffit.fit.least_squares import least_squares as least_squares
     from brdffit.fit.result import load_result as load_result
     from brdffit.fit.select import Comparison as Comparison, compare as compare
     from brdffit.models import MODELS as MODELS, AbstractBRDF as AbstractBRDF
@@ -63,6 +64,7 @@ _HOME = {
     "directional_albedo": "albedo",
     "enable_compilation_cache": "cache",
     "fit": "fit",
+    "least_squares": "fit.least_squares",
     "lit_sphere": "scene",
     "load": "readers",
     "load_result": "fit.result",

@@ -13,19 +13,12 @@ from brdffit.compiled import compiled
 from brdffit.fit import structure
 from brdffit.fit.residual import RESIDUALS
 from brdffit.fit.search import Search
+from brdffit.fit.solve import sentence
 from brdffit.fit.transforms import Layout, to_natural
 from brdffit.fit.uncertainty import uncertainty
 
 AT_BOUND = 1e-7  # distance from a bound, in widths of the interval
 NEARBY = 0.02  # distance from a bound within which to try whether it serves as well
-STATUS = (
-    (optx.RESULTS.successful, "converged"),
-    (
-        optx.RESULTS.nonlinear_max_steps_reached,
-        "stopped at the largest number of steps before it converged",
-    ),
-    (optx.RESULTS.nonfinite, "stopped at a value that is not finite"),
-)
 
 
 def examine(
@@ -183,9 +176,8 @@ def _p_value(chi_square: float, freedom: int) -> float:
 
 
 def _sentence(found: Search) -> str:
-    outcome = next(words for result, words in STATUS if bool(found.status == result))
     return (
-        f"The fit {outcome} after {found.steps} steps; "
+        f"{sentence(found.status, found.steps)}; "
         f"{found.agreement:.0%} of the starts agree on this minimum"
         f"{f' of {found.basins} met' if found.basins > 1 else ''}."
     )

@@ -19,7 +19,26 @@ from brdffit.fit.quadratic import minimise_in_box
 from brdffit.fit.structure import NormalEquations
 
 FIRST_DAMPING = 1e-3
+LEAST_SCALED = (
+    1e-3  # damping of a parameter the residual hardly sees, beside the others
+)
 LEAST_GAIN = 1e-4  # share of the predicted decrease that makes a step worth taking
+
+
+STATUS = (
+    (optx.RESULTS.successful, "converged"),
+    (
+        optx.RESULTS.nonlinear_max_steps_reached,
+        "stopped at the largest number of steps before it converged",
+    ),
+    (optx.RESULTS.nonfinite, "stopped at a value that is not finite"),
+)
+
+
+def sentence(outcome: optx.RESULTS, steps: int) -> str:
+    """An outcome in words, without the full stop."""
+    words = next(words for result, words in STATUS if bool(outcome == result))
+    return f"The fit {words} after {steps} steps"
 
 
 class State(eqx.Module):
@@ -47,6 +66,9 @@ class State(eqx.Module):
 class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
     """Levenberg-Marquardt within ``options["lower"]`` and ``options["upper"]``.
 
+    With ``options["scale"]``, the size of a notable change of each parameter, one that
+    the residual hardly sees at present is kept from running away.
+
     Stops when the decrease that the next step promises is below ``rtol`` of the cost
     plus ``atol``, or is mere rounding of the gradient. Damping follows H. B.
     Nielsen, "Damping Parameter in Marquardt's Method", IMM-REP-1999-05.
@@ -54,11 +76,13 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
     Attributes:
         rtol: Relative decrease at which to stop.
         atol: Absolute decrease at which to stop.
+        damping: Damping of the first step, relative to the diagonal.
         norm: Not used: decreases are scalars.
     """
 
     rtol: float
     atol: float = 0.0
+    damping: float = FIRST_DAMPING
     norm: Callable = optx.max_norm
 
     def init(self, fn, y, args, options, f_struct, aux_struct, tags) -> State:
@@ -69,7 +93,7 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
         )
         return State(
             *empty,
-            damping=jnp.array(FIRST_DAMPING),
+            damping=jnp.array(self.damping),
             growth=jnp.array(2.0),
             step=jnp.zeros_like(y),
             predicted=jnp.array(jnp.inf),
@@ -94,7 +118,8 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
 
         y = jnp.where(accept, trial, y)
         equations = choose(equations, state.equations)
-        softer = state.damping * jnp.maximum(1 / 3, 1 - (2 * gain - 1) ** 3)
+        trust = jnp.where(unseen, 1.0, jnp.clip(gain, 0, 1))
+        softer = state.damping * jnp.maximum(1 / 3, 1 - (2 * trust - 1) ** 3)
         harder = state.damping * state.growth
         damping = jnp.where(
             state.first, state.damping, jnp.where(accept, softer, harder)
@@ -116,6 +141,10 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
         if y.size == 0:
             return y, jnp.array(0.0)
         diagonal = jnp.diagonal(equations.hessian)
+        if "scale" in options:
+            scale = options["scale"]
+            typical = jnp.mean(diagonal * scale**2)
+            diagonal = diagonal + LEAST_SCALED * typical / scale**2
         damped = equations.hessian + jnp.diag(damping * diagonal)
         step, _ = minimise_in_box(
             damped, equations.gradient, options["lower"] - y, options["upper"] - y

@@ -8,6 +8,7 @@ import dataclasses
 import numpy as np
 
 UNSEEN = 1e-10  # eigenvalue of the Hessian, at unit diagonal, that is mere rounding
+# of directions that were stored in single precision
 WIDE = 0.3  # a uniform guess has this standard error, in widths of the legal interval
 INVOLVED = 0.05  # share of a direction that makes a parameter part of it
 
@@ -37,6 +38,7 @@ def uncertainty(
     at_bound: np.ndarray,
     variance: float,
     labels: tuple[str, ...],
+    unseen: float = UNSEEN,
 ) -> Uncertainty:
     """Errors from the Gauss-Newton Hessian at the solution.
 
@@ -47,11 +49,12 @@ def uncertainty(
         hessian: ``J^T J`` in solver coordinates.
         natural: Parameter values.
         slopes: Derivative of each value along its solver coordinate.
-        widths: Width of each legal interval, in solver coordinates.
+        widths: Width of each legal interval, in solver coordinates; may be infinite.
         fixed: True for parameters that were held.
         at_bound: True for parameters on a bound.
         variance: Variance of a residual of unit weight.
         labels: Names of the parameters.
+        unseen: Eigenvalue of the Hessian, at unit diagonal, that is mere rounding.
     """
     seen = np.diag(hessian) > 0
     asked = ~fixed & seen
@@ -64,13 +67,15 @@ def uncertainty(
     }
     relative = slopes / np.where(natural != 0, np.abs(natural), np.abs(slopes))
     places = np.flatnonzero(asked)
-    for direction in _lost(scaled, unit, widths, variance, places):
+    spans = np.where(np.isfinite(widths), widths, unit)
+    bounded = bool(np.all(np.isfinite(widths[places])))
+    for direction in _lost(scaled, unit, spans, variance, places, unseen, bounded):
         parts = np.abs(direction) > INVOLVED * np.abs(direction).max()
         involved = places[parts]
-        change = (direction * widths[places] * relative[places])[parts]
+        change = (direction * spans[places] * relative[places])[parts]
         pivot = involved[np.argmax(np.abs(change))]
         rest = np.setdiff1d(places[~at_bound[places]], [pivot])
-        errors = np.sqrt(np.diag(_covariance(scaled, rest, variance)))
+        errors = np.sqrt(np.diag(_covariance(scaled, rest, variance, unseen)))
         precision = (errors * unit * np.abs(relative))[involved]
         sentence = _sentence([labels[i] for i in involved], change, precision)
         for i in involved:
@@ -78,11 +83,11 @@ def uncertainty(
 
     lost = np.array([label in undetermined for label in labels])
     free = asked & ~(at_bound & ~lost)
-    covariance = _covariance(scaled, np.flatnonzero(free), variance)
+    covariance = _covariance(scaled, np.flatnonzero(free), variance, unseen)
     errors = np.sqrt(np.diag(covariance)) * unit * np.abs(slopes)
     for i in np.flatnonzero(asked & ~free):
         alone = np.flatnonzero(free | (np.arange(len(free)) == i))
-        errors[i] = np.sqrt(_covariance(scaled, alone, variance)[i, i])
+        errors[i] = np.sqrt(_covariance(scaled, alone, variance, unseen)[i, i])
         errors[i] *= unit[i] * abs(slopes[i])
     errors[lost] = np.inf
 
@@ -95,7 +100,7 @@ def uncertainty(
     return Uncertainty(errors, correlation, undetermined)
 
 
-def _lost(scaled, unit, widths, variance, places) -> np.ndarray:
+def _lost(scaled, unit, widths, variance, places, least, bounded) -> np.ndarray:
     """Directions the data do not see, in widths of the legal intervals.
 
     Either the Hessian vanishes along them up to rounding, or the noise leaves them no
@@ -105,9 +110,11 @@ def _lost(scaled, unit, widths, variance, places) -> np.ndarray:
         return np.zeros((0, 0))
     square = np.ix_(places, places)
     eigenvalues, vectors = np.linalg.eigh(scaled[square])
-    unseen = (vectors.T * unit[places] / widths[places])[eigenvalues < UNSEEN]
+    unseen = (vectors.T * unit[places] / widths[places])[eigenvalues < least]
+    if not bounded:
+        return _sparse(unseen)
     # floor: rounding must not make a lost direction look sure
-    solid = (vectors * np.maximum(eigenvalues, UNSEEN)) @ vectors.T
+    solid = (vectors * np.maximum(eigenvalues, least)) @ vectors.T
     stretch = widths[places] / unit[places]
     spread, directions = np.linalg.eigh(solid * np.outer(stretch, stretch))
     vague = directions.T[variance / np.maximum(spread, 1e-300) > WIDE**2]
@@ -126,11 +133,13 @@ def _sparse(directions: np.ndarray) -> np.ndarray:
     return rows
 
 
-def _covariance(scaled: np.ndarray, free: np.ndarray, variance: float) -> np.ndarray:
+def _covariance(
+    scaled: np.ndarray, free: np.ndarray, variance: float, unseen: float
+) -> np.ndarray:
     """Covariance of the free parameters at unit diagonal, 0 for the others."""
     whole = np.zeros_like(scaled)
     eigenvalues, vectors = np.linalg.eigh(scaled[np.ix_(free, free)])
-    lost = eigenvalues < UNSEEN
+    lost = eigenvalues < unseen
     inverse = np.where(lost, 0, variance / np.where(lost, 1, eigenvalues))
     whole[np.ix_(free, free)] = (vectors * inverse) @ vectors.T
     return whole
