@@ -9,7 +9,7 @@ from brdffit.fit.select import Comparison, Entry
 from brdffit.fit.transforms import Layout
 from brdffit.parameters import parameters, registry_name, values
 
-CHANNELS = {1: ("650nm",), 3: ("R", "G", "B")}
+CHANNELS = {1: ("650nm",), 2: ("a", "b"), 3: ("R", "G", "B")}
 
 
 def result_of(brdf, residual="log", **changes):

@@ -1,0 +1,63 @@
+import json
+from functools import partial
+
+import pytest
+
+import brdffit
+from brdffit.fit import RESIDUALS
+
+FIGURES = ("lobes", "spheres", "residuals")
+
+
+def test_a_fit_says_what_it_found_and_how_sure_it_is(run, chalk):
+    status, out, err = run("fit", chalk, "--model", "lambert")
+    words = " ".join(out.split())
+    assert (status, err) == (0, "")
+    assert "lambert fitted to chalk: 81 values, residual log." in words
+    assert "parameter value error unit range note albedo 0.60" in words
+    assert "[0, 1]" in words
+    assert all(residual in words for residual in RESIDUALS)
+    assert "minimised" in words
+    assert "Chi-square" in words  # the errors of the values are known
+    assert "The fit converged" in words
+    assert "Path: " in words
+    assert "Written" not in words
+
+
+def test_json_is_the_whole_result_and_nothing_else(run, chalk):
+    status, out, err = run("fit", chalk, "--model", "lambert", "--json")
+    result = json.loads(out)
+    assert (status, err) == (0, "")
+    assert result["model"] == "lambert"
+    assert result["parameters"]["albedo"][0] == pytest.approx(0.6, abs=0.01)
+    assert result["files"] == []
+
+
+def test_out_holds_result_and_pictures_whole(run, chalk, tmp_path):
+    folder = tmp_path / "new" / "folder"
+    status, out, _ = run("fit", chalk, "--model", "lambert", "--out", folder)
+    assert status == 0
+    pictures = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "pdf")}
+    assert {path.name for path in folder.iterdir()} == {"result.json", *pictures}
+    assert str(folder) in out.replace("\n", "")
+    assert brdffit.load_result(folder / "result.json").model == "lambert"
+
+
+def test_a_parameter_can_be_held(run, chalk):
+    fit = ("fit", chalk, "--model", "oren_nayar", "--fix", "sigma=0.5", "--json")
+    result = json.loads(run(*fit)[1])
+    assert result["parameters"]["sigma"] == 0.5
+    assert result["standard_errors"]["sigma"] == 0.0
+
+
+def test_residual_and_starts_are_obeyed(run, chalk):
+    options = ("--residual", "plain", "--starts", "3", "--json")
+    result = json.loads(run("fit", chalk, "--model", "lambert", *options)[1])
+    assert (result["residual"], result["starts"]) == ("plain", 3)
+
+
+def test_a_fit_that_did_not_converge_has_status_1(run, chalk, monkeypatch):
+    monkeypatch.setattr(brdffit, "fit", partial(brdffit.fit, max_steps=1))
+    status, out, _ = run("fit", chalk, "--model", "phong")
+    assert status == 1
+    assert "before it converged" in " ".join(out.split())

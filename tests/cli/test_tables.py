@@ -1,0 +1,95 @@
+import dataclasses
+import math
+
+import pytest
+
+from brdffit import MODELS
+from brdffit.cli.console import output
+from brdffit.cli.tables import parameter_table, ranking_table, rounded, side_by_side
+from tests.results import comparison_of, result_of
+
+
+def text_of(table, width=200):
+    console = output()
+    console.width = width
+    with console.capture() as captured:
+        console.print(table)
+    return captured.get()
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "shown"),
+    [
+        (0.363673, 0.0027748, ("0.3637", "0.0028")),
+        (13.45, 0.0098, ("13.4500", "0.0098")),
+        (471.463, 0.86, ("471.46", "0.86")),
+        (1234.5, 152.0, ("1230", "150")),
+        (0.0, 0.00035, ("0.00000", "0.00035")),
+        (0.2, 1e-9, ("0.2", "1e-09")),
+        (3.1e-7, 2e-8, ("3.1e-07", "2e-08")),
+        (0.5, 0.0, ("0.5", "")),
+        (0.84123, math.inf, ("0.841", "undetermined")),
+    ],
+)
+def test_values_end_where_their_error_begins(value, error, shown):
+    assert rounded(value, error) == shown
+
+
+def test_table_tells_bounds_units_and_doubts():
+    brdf = MODELS["oren_nayar"](albedo=[0.5, 1.0], sigma=0.0)
+    result = result_of(
+        brdf,
+        at_bound={"albedo[1]": "`albedo[1]` is at its upper bound 1."},
+        undetermined={"sigma": "`sigma` has no effect on these data."},
+    )
+    result.standard_errors["sigma"] = math.inf
+    lines = [line.split() for line in text_of(parameter_table(result)).splitlines()]
+    assert lines[1] == ["albedo[0]", "a", "0.500", "0.010", "[0,", "1]"]
+    assert lines[2] == ["albedo[1]", "b", "1.000", "0.010", "[0,", "1]", "at", "bound"]
+    assert lines[3][:4] == ["sigma", "0", "undetermined", "rad"]
+
+
+def test_a_single_channel_is_not_named():
+    result = result_of(MODELS["lambert"](albedo=[0.5]))
+    assert "650nm" not in text_of(parameter_table(result))
+
+
+def test_models_stand_side_by_side_with_a_row_for_each_parameter():
+    comparison = comparison_of(MODELS["ggx"](), MODELS["lambert"](albedo=[0.25] * 3))
+    (table,) = side_by_side(comparison, output())
+    lines = text_of(table).splitlines()
+    assert lines[0].split() == ["parameter", "ggx", "lambert"]
+    rows = {line.split()[0]: line for line in lines[1:]}
+    assert "0.300 \N{PLUS-MINUS SIGN} 0.010" in rows["alpha"]
+    assert rows["albedo[0]"].count("\N{PLUS-MINUS SIGN}") == 1
+    assert rows["albedo[0]"].index("0.250") >= lines[0].index("lambert")
+
+
+def test_a_narrow_terminal_gets_several_tables():
+    comparison = comparison_of(*(MODELS[name]() for name in ("ggx", "phong", "ward")))
+    console = output()
+    console.width = 60
+    tables = list(side_by_side(comparison, console))
+    assert len(tables) > 1
+    shown = "".join(text_of(table, 60) for table in tables)
+    assert all(name in shown for name in ("ggx", "phong", "ward"))
+    assert max(len(line) for line in shown.splitlines()) <= 60
+
+
+def test_ranking_flags_ties_doubts_and_failures():
+    comparison = comparison_of(MODELS["ggx"](), MODELS["phong"](), tied=(0, 1))
+    stuck = dataclasses.replace(
+        comparison.entries[1].result,
+        converged=False,
+        at_bound={"exponent": "..."},
+        chi_square=250.0,
+    )
+    entries = (
+        comparison.entries[0],
+        dataclasses.replace(comparison.entries[1], result=stuck),
+    )
+    text = text_of(ranking_table(dataclasses.replace(comparison, entries=entries)))
+    best, second = text.splitlines()[-2:]
+    assert "tied" not in best
+    assert "tied with the best; not converged; at bound: exponent" in second
+    assert "2.500" in second  # chi-square per value

@@ -1,0 +1,61 @@
+import os
+import subprocess
+import sys
+
+import pytest
+
+from brdffit.cache import enable_compilation_cache
+
+FIT = """
+import jax
+import numpy as np
+
+missed = []
+jax.monitoring.register_event_listener(
+    lambda event, **_: missed.append(event) if event.endswith("cache_misses") else None
+)
+import brdffit
+
+assert jax.config.jax_compilation_cache_dir is None, "importing changes no setting"
+brdffit.MODELS["lambert"]()
+print(brdffit.enable_compilation_cache())
+instrument = brdffit.Goniometer([30], range(0, 80, 10), [0, 180])
+data = brdffit.simulate_measurement(brdffit.MODELS["lambert"](albedo=[0.5]), instrument)
+brdffit.fit("lambert", data)
+print(len(missed))
+"""
+
+
+def run(folder):
+    plain = {key: value for key, value in os.environ.items() if key[:4] != "JAX_"}
+    done = subprocess.run(
+        [sys.executable, "-c", FIT],
+        env={**plain, "BRDFFIT_CACHE": str(folder)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    used, missed = done.stdout.splitlines()
+    return used, int(missed)
+
+
+def test_a_second_fit_finds_all_its_programs_compiled(tmp_path):
+    folder = tmp_path / "kept"
+    used, missed = run(folder)
+    assert used == str(folder)
+    assert missed > 10
+    assert run(folder) == (str(folder), 0)
+
+
+def test_nothing_is_kept_when_switched_off(monkeypatch):
+    monkeypatch.setenv("BRDFFIT_CACHE", "off")
+    assert enable_compilation_cache() is None
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_folder_that_cannot_be_written_only_costs_time(tmp_path):
+    taken = tmp_path / "taken"
+    taken.touch()
+    assert enable_compilation_cache(taken / "below") is None
