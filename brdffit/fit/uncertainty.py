@@ -10,7 +10,7 @@ import numpy as np
 UNSEEN = 1e-10  # eigenvalue of the Hessian, at unit diagonal, that is mere rounding
 # of directions that were stored in single precision
 WIDE = 0.3  # a uniform guess has this standard error, in widths of the legal interval
-INVOLVED = 0.05  # share of a direction that makes a parameter part of it
+INVOLVED = 0.05  # share of the largest part of a direction that counts as part of it
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,14 +70,17 @@ def uncertainty(
     spans = np.where(np.isfinite(widths), widths, unit)
     bounded = bool(np.all(np.isfinite(widths[places])))
     for direction in _lost(scaled, unit, spans, variance, places, unseen, bounded):
-        parts = np.abs(direction) > INVOLVED * np.abs(direction).max()
-        involved = places[parts]
-        change = (direction * spans[places] * relative[places])[parts]
-        pivot = involved[np.argmax(np.abs(change))]
+        change = direction * spans[places] * relative[places]
+        parts = _large(direction) | _large(change)
+        involved, change = places[parts], change[parts]
+        shared = np.array(["[" not in labels[i] for i in involved])
+        # a value that all channels share leads the sentence, when it takes its part
+        leader = int(np.argmax(np.abs(change) * np.where(shared, 2, 1)))
+        pivot = involved[leader]
         rest = np.setdiff1d(places[~at_bound[places]], [pivot])
         errors = np.sqrt(np.diag(_covariance(scaled, rest, variance, unseen)))
         precision = (errors * unit * np.abs(relative))[involved]
-        sentence = _sentence([labels[i] for i in involved], change, precision)
+        sentence = _sentence([labels[i] for i in involved], change, precision, leader)
         for i in involved:
             undetermined.setdefault(labels[i], sentence)
 
@@ -121,6 +124,11 @@ def _lost(scaled, unit, widths, variance, places, least, bounded) -> np.ndarray:
     return _sparse(unseen if len(unseen) >= len(vague) else vague)
 
 
+def _large(parts: np.ndarray) -> np.ndarray:
+    """Which parts of a direction matter beside its largest."""
+    return np.abs(parts) > INVOLVED * np.abs(parts).max()
+
+
 def _sparse(directions: np.ndarray) -> np.ndarray:
     """The same space spanned by directions that each involve few parameters."""
     rows = directions.copy()
@@ -145,20 +153,22 @@ def _covariance(
     return whole
 
 
-def _sentence(labels: list[str], change: np.ndarray, precision: np.ndarray) -> str:
+def _sentence(
+    labels: list[str], change: np.ndarray, precision: np.ndarray, pivot: int
+) -> str:
     """A lost direction in words: what undoes a change of its leading parameter.
 
     Args:
         labels: Parameters involved.
         change: Relative change of each along the direction.
         precision: Relative error of each when the leading one is held.
+        pivot: Index of the leading parameter.
     """
     if len(labels) == 1:
         return (
             f"`{labels[0]}` is not determined by these data: its error is as wide as "
             "its legal interval."
         )
-    pivot = int(np.argmax(np.abs(change)))
     ratio = change / change[pivot] * 10
     groups: dict[str, list[int]] = {}
     for i, label in enumerate(labels):
