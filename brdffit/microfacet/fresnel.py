@@ -97,16 +97,32 @@ def diffuse_transmittance(eta: Scalar) -> Scalar:
     $$T = 2\int_0^1 (1 - F)\,c\,dc$$
 
     by a fixed rule after $c = \sqrt{\eta^2 - 1}\,\sinh y$, which makes $r = \tanh y$
-    and the integrand smooth; relative error below 1e-11.
+    and the integrand smooth; relative error below 1e-11. Close to ``eta = 1``, where y
+    has no end, by the series of Walsh's closed form.
     """
     node, weight = (
         jnp.asarray(a, eta.dtype) for a in np.polynomial.legendre.leggauss(64)
     )
-    contrast = (eta - 1) * (eta + 1) + 1e-12  # not quite 0, where y has no end
+    close = eta < 1.001
+    apart = jnp.where(close, 1.5, eta)
+    contrast = (apart - 1) * (apart + 1)
     end = jnp.arcsinh(1 / numerics.sqrt(contrast))
     y = end * (1 + node) / 2
-    share = _transmittance(jnp.tanh(y), eta) * jnp.sinh(2 * y)
-    return contrast * end / 2 * jnp.sum(weight * share)
+    share = _transmittance(jnp.tanh(y), apart) * jnp.sinh(2 * y)
+    integral = contrast * end / 2 * jnp.sum(weight * share)
+    return jnp.where(
+        close, _transmittance_of_little(jnp.where(close, eta, 1.0)), integral
+    )
+
+
+def _transmittance_of_little(eta: Scalar) -> Scalar:
+    """`diffuse_transmittance` for ``eta`` at most 1.001, by powers of ``eta - 1``."""
+    d = eta - 1
+    log = numerics.log(d)
+    fifth = 0.79446158357955 + 0.625 * log
+    fourth = 0.66446698784997 - 0.625 * log + fifth * d
+    second = 0.44509307638669 + 0.5 * log + d * (fourth * d - 79 / 60)
+    return 1 - d * (1 / 3 + second * d)
 
 
 def _transmittance(r: Value, eta: Value) -> Value:

@@ -1,6 +1,6 @@
 """Models with a base under a coat."""
 
-from mpmath import cos, log, mpf, pi
+from mpmath import cos, log, mp, mpf, pi
 
 from tests.oracle.directions import half, polar
 from tests.oracle.microfacet import (
@@ -22,9 +22,15 @@ def internal_reflectance(n):
     """
     if n == 1:
         return mpf(0)
+    with mp.workdps(3 * mp.dps):  # terms of 1 / (n - 1)^2 cancel
+        return _internal_reflectance(n)
+
+
+def _internal_reflectance(n):
     square, fourth = n**2, n**4
     outside = mpf(1) / 2 + (n - 1) * (3 * n + 1) / (6 * (n + 1) ** 2)
-    outside += square * (square - 1) ** 2 / (square + 1) ** 3 * log(abs(n - 1) / (n + 1))
+    ratio = abs(n - 1) / (n + 1)
+    outside += square * (square - 1) ** 2 / (square + 1) ** 3 * log(ratio)
     outside -= 2 * n**3 * (square + 2 * n - 1) / ((square + 1) * (fourth - 1))
     outside += 8 * fourth * (fourth + 1) / ((square + 1) * (fourth - 1) ** 2) * log(n)
     return 1 - (1 - outside) / square
