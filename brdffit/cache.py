@@ -35,7 +35,7 @@ def enable_compilation_cache(folder: str | Path | None = None) -> Path | None:
     chosen = folder or os.environ.get(VARIABLE)
     if chosen == OFF:
         return None
-    told = jax.config.jax_compilation_cache_dir
+    told = jax.config.jax_compilation_cache_dir  # pyright: ignore  (added at run time)
     path = Path(chosen or told or platformdirs.user_cache_path("brdffit") / "jax")
     with contextlib.suppress(OSError):
         require_writable(path)

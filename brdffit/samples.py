@@ -15,7 +15,7 @@ from jaxtyping import Float
 from brdffit.names import look_up
 from brdffit.types import AnyArray, Index, Mask, Values, Vectors
 
-Data = TypeVar("Data", "Samples", "Measurement")
+Data = TypeVar("Data", bound="Samples | Measurement")
 
 
 class Pixels(eqx.Module):

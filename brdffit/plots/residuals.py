@@ -133,10 +133,12 @@ def residual_values(
     """``T(fitted) - T(measured)``, shape ``(N, C)``, NaN where a value is not used."""
     use = usable(samples, residual)
     cosines = jnp.asarray(samples.cosine)[:, None], jnp.asarray(samples.wo)[:, 2:]
-    measured = jnp.asarray(np.where(use, samples.value, 1.0))
-    fitted = residual.transform(compiled_shade(brdf, samples), *cosines)
-    error = np.asarray(fitted - residual.transform(measured, *cosines))
-    return np.where(use, error, np.nan)
+    measured = jnp.asarray(np.where(use, np.asarray(samples.value), 1.0))
+    fitted = jnp.asarray(compiled_shade(brdf, samples))
+    error = residual.transform(fitted, *cosines) - residual.transform(
+        measured, *cosines
+    )
+    return np.where(use, np.asarray(error), np.nan)
 
 
 def sample_angles(samples: Samples) -> dict[str, np.ndarray]:

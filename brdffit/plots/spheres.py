@@ -104,9 +104,9 @@ def _rendered(models: Mapping[str, AbstractBRDF]) -> Figure:
 def _differences(samples: Samples, models: Mapping[str, AbstractBRDF]) -> Figure:
     """Photographs beside fits; below each fit, where it is too bright or too dark."""
     assert samples.pixels is not None  # for the type checker
-    assert samples.value is not None
     frames = spread(range(samples.pixels.shape[0]), FRAMES)
-    samples = samples.take(np.isin(samples.pixels.frame, frames))
+    shown = np.isin(samples.pixels.frame, frames)
+    samples, frame_of = samples.take(shown), np.asarray(samples.pixels.frame)[shown]
     measured = np.asarray(samples.value)
     used = np.isfinite(measured)
     if samples.mask is not None:
@@ -121,8 +121,8 @@ def _differences(samples: Samples, models: Mapping[str, AbstractBRDF]) -> Figure
     pictures = []
     for number, frame in enumerate(frames):
         above, below = grid[2 * number], grid[2 * number + 1]
-        here = np.asarray(samples.pixels.frame) == frame
-        exposure = _exposure(measured[used & here[:, None]])
+        here = (frame_of == frame)[:, None]
+        exposure = _exposure(measured[used & here])
         plot_sphere(above[0], _image(samples, measured, frame), exposure)
         above[0].set_title("measured" + f", light {frame + 1}" * (len(frames) > 1))
         _explain(below[0], exposure, bool((~used).any()))

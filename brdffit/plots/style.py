@@ -34,7 +34,7 @@ DASHES = (
 FORMATS = ("png", "pdf")
 RESOLUTION = 150  # dots per inch of a PNG
 
-LOOK = {
+LOOK: Any = {
     "font.size": 9,
     "axes.titlesize": 9,
     "axes.labelsize": 9,
