@@ -13,7 +13,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import optimistix as optx
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Bool, Float, Int
 
 from brdffit.fit.quadratic import minimise_in_box
 from brdffit.fit.structure import NormalEquations
@@ -22,6 +22,7 @@ FIRST_DAMPING = 1e-3
 LEAST_SCALED = (
     1e-3  # damping of a parameter the residual hardly sees, beside the others
 )
+BLIND_STEPS = 10  # steps judged by the gradient alone, after which to stop
 LEAST_GAIN = 1e-4  # share of the predicted decrease that makes a step worth taking
 
 
@@ -51,6 +52,7 @@ class State(eqx.Module):
         growth: Factor by which the next rejection raises the damping.
         step: Step that will be tried next.
         predicted: Decrease of the cost that the quadratic promises for it.
+        blind: Number of steps in a row too small for the cost to show.
         first: True until the start itself has been evaluated.
     """
 
@@ -60,6 +62,7 @@ class State(eqx.Module):
     growth: Float[Array, ""]
     step: Float[Array, " n"]
     predicted: Float[Array, ""]
+    blind: Int[Array, ""]
     first: Bool[Array, ""]
 
 
@@ -97,6 +100,7 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
             growth=jnp.array(2.0),
             step=jnp.zeros_like(y),
             predicted=jnp.array(jnp.inf),
+            blind=jnp.array(0),
             first=jnp.array(True),
         )
 
@@ -118,7 +122,7 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
 
         y = jnp.where(accept, trial, y)
         equations = choose(equations, state.equations)
-        trust = jnp.where(unseen, 1.0, jnp.clip(gain, 0, 1))
+        trust = jnp.where(unseen, 0.5, jnp.clip(gain, 0, 1))  # 0.5: leave it as it is
         softer = state.damping * jnp.maximum(1 / 3, 1 - (2 * trust - 1) ** 3)
         harder = state.damping * state.growth
         damping = jnp.where(
@@ -133,6 +137,7 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
             growth=growth,
             step=step,
             predicted=predicted,
+            blind=jnp.where(unseen, state.blind + 1, 0),
             first=jnp.array(False),
         )
         return y, new, new.aux
@@ -156,7 +161,10 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
         """Stop when nothing that could be seen is left to gain."""
         del fn, y, args, options, tags
         small = self.rtol * jnp.maximum(state.equations.cost, 0) + self.atol
-        done = ~state.first & (state.predicted <= small + state.equations.floor)
+        done = (state.predicted <= small + state.equations.floor) | (
+            state.blind > BLIND_STEPS
+        )
+        done &= ~state.first
         finite = state.first | jnp.isfinite(state.equations.cost)
         result = optx.RESULTS.where(
             finite, optx.RESULTS.successful, optx.RESULTS.nonfinite
