@@ -93,7 +93,7 @@ def search(
     final = solve(whole, jnp.asarray(starts), rtol=rtol, max_steps=max_steps)
     met = final if met is None else met
     near = np.asarray(met.cost) <= np.nanmin(met.cost) + _same(met)
-    best = int(np.nanargmin(final.cost))
+    best = _best(final)
     return Search(
         x=np.asarray(final.x[best]),
         steps=int(final.steps[best]),
@@ -111,6 +111,14 @@ def _screen(samples: Samples, rows: np.ndarray) -> np.ndarray:
     share = SCREEN // 4
     even = rows[:: -(-len(rows) // (SCREEN - share))]
     return np.union1d(even, bright[:: max(1, len(bright) // share)][:share])
+
+
+def _best(met: Minima) -> int:
+    """The lowest minimum; among equals, one whose solve was completed."""
+    cost = np.where(np.isfinite(met.cost), met.cost, np.inf)
+    worse = cost > np.min(cost) + 4 * np.asarray(met.rounding)
+    unfinished = np.asarray(met.status != optx.RESULTS.successful)
+    return int(np.lexsort((cost, unfinished, worse))[0])
 
 
 def _same(met: Minima) -> np.ndarray:

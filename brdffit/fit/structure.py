@@ -218,17 +218,19 @@ def _eliminate(gram, lower, upper, q: int, m: int, derivatives: bool):
     hessian = jnp.einsum(
         "j,amj->am", combination, tangent[:, 1 + q : -1].reshape(m, m, 1 + q)
     )
+    # what elimination leaves of a direction the data do not see is mere rounding
+    ridge = 64 * jnp.finfo(gram.dtype).eps * jnp.diag(jnp.diagonal(hessian))
     if q:
         held = jnp.where(free[:, None] & free[None, :], basis, jnp.eye(q))
         cross = tangent[:, 1 : 1 + q] * free[None]
         unit = jax.lax.rsqrt(
             jnp.maximum(jnp.diagonal(held), jnp.finfo(gram.dtype).tiny)
         )
-        ridge = 8 * jnp.finfo(gram.dtype).eps * jnp.eye(q)
-        scaled = held * unit[:, None] * unit[None, :] + ridge
+        scaled = held * unit[:, None] * unit[None, :]
+        scaled += 8 * jnp.finfo(gram.dtype).eps * jnp.eye(q)
         solved = jax.vmap(solve_positive, (None, 0))(scaled, cross * unit[None])
         hessian -= (cross * unit[None]) @ solved.T
-    return (cost, gradient, hessian), linear
+    return (cost, gradient, hessian + ridge), linear
 
 
 def stream(problem: Problem, x: Array) -> NormalEquations:
