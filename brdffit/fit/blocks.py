@@ -74,7 +74,7 @@ def blocks(
     """
     rows = np.flatnonzero(use.any(axis=1))
     samples, use = samples.take(rows), use[rows]
-    value = np.where(use, samples.value, 1).astype(np.float64)
+    value = np.where(use, np.asarray(samples.value), 1).astype(np.float64)
     target, slope = _transformed(residual, samples, value)
     base = use.astype(float)
     if samples.solid_angle is not None:
@@ -126,12 +126,12 @@ def _transformed(residual: Residual, samples: Samples, value: np.ndarray):
     """Values after the transform, and its slope there."""
     cosine, wo = (jnp.asarray(a, value.dtype) for a in (samples.cosine, samples.wo))
     cosines = cosine[:, None], wo[:, 2:]
-    value = jnp.asarray(value)
+    y = jnp.asarray(value)
 
     def transform(value):
         return residual.transform(value, *cosines)
 
-    target, slope = jax.jvp(transform, (value,), (jnp.ones_like(value),))
+    target, slope = jax.jvp(transform, (y,), (jnp.ones_like(y),))
     return np.asarray(target), np.asarray(slope)
 
 
