@@ -106,7 +106,9 @@ def search(
 def _screen(samples: Samples, rows: np.ndarray) -> np.ndarray:
     """Rows that stand for all: every so-manieth, and more of the brightest."""
     bright = rows[
-        np.argsort(np.nansum(samples.value[rows], axis=1))[-len(rows) // 20 :]
+        np.argsort(np.nansum(np.asarray(samples.value)[rows], axis=1))[
+            -len(rows) // 20 :
+        ]
     ]
     share = SCREEN // 4
     even = rows[:: -(-len(rows) // (SCREEN - share))]

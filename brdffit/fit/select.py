@@ -163,7 +163,7 @@ def split(rows: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray]:
 def _squares(brdf, samples: Samples, use: np.ndarray, residual: Residual) -> np.ndarray:
     """Mean square of the residual of each direction, over its usable channels."""
     cosines = jnp.asarray(samples.cosine)[:, None], jnp.asarray(samples.wo)[:, 2:]
-    value = jnp.asarray(np.where(use, samples.value, 1))
+    value = jnp.asarray(np.where(use, np.asarray(samples.value), 1))
     predicted = jax.jit(shade)(brdf, samples)
     error = residual.transform(predicted, *cosines) - residual.transform(
         value, *cosines

@@ -154,7 +154,8 @@ def _gram(rows: Array) -> Array:
 
 def _transform(residual: Residual, block: Blocks):
     """The transform of a residual on values ``(channel, place)`` of a block."""
-    return lambda value: residual.transform(value, block.cos_i[None], block.cos_o[None])
+    cosines = jnp.asarray(block.cos_i)[None], jnp.asarray(block.cos_o)[None]
+    return lambda value: residual.transform(value, *cosines)
 
 
 def project(problem: Problem, x: Array, derivatives: bool = True):
