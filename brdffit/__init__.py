@@ -10,7 +10,7 @@ The package reads from top to bottom; a module imports only from lines above its
     microfacet             Fresnel, ndf, masking-shadowing
     models                 one BRDF per file
     catalogue              models by name and in numbers
-    albedo                 integrals of a BRDF
+    optics, albedo         refractive indices of materials; integrals of a BRDF
     samples, images        weighted directions with values; linear images
     scene                  camera, shapes, lights
     render                 geometry pass, shading, images

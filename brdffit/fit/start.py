@@ -8,15 +8,18 @@ from brdffit.fit.transforms import Layout, to_solver
 def spread_starts(layout: Layout, count: int) -> np.ndarray:
     """Solver coordinates ``(count, parameters)`` evenly spread over typical ranges.
 
-    An additive recurrence with the generalised golden ratio fills a box of any
+    Every nonlinear parameter takes equal steps over its range, in the order of an
+    additive recurrence with the generalised golden ratio, which fills a box of any
     dimension more evenly than random draws (M. Roberts, "The Unreasonable Effectiveness
-    of Quasirandom Sequences", 2018). The nonlinear parameters share one point per
-    start, channels included: a start is one guess of the material's shape.
+    of Quasirandom Sequences", 2018). The channels share one point per start: a start is
+    one guess of the material's shape.
     """
     names = layout.nonlinear
     ratio = _generalised_golden_ratio(max(len(names), 1))
     steps = ratio ** -np.arange(1.0, len(names) + 1)
     points = (0.5 + np.outer(np.arange(1, count + 1), steps)) % 1
+    # as it stands the recurrence bunches so few points: take their order alone
+    points = (points.argsort(axis=0).argsort(axis=0) + 0.5) / max(count, 1)
     low = to_solver(layout, np.array([p.typical[0] for p in layout.known]))
     high = to_solver(layout, np.array([p.typical[1] for p in layout.known]))
     starts = np.tile((low + high) / 2, (count, 1))
