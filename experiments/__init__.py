@@ -3,8 +3,8 @@
     stability          where does the textbook formula of a model fail, and does ours?
     million_pairs      is anything not finite among a million random pairs?
     original_phong     when does the original Phong model give wrong results?
-    metal_highlight    what does the choice of Beckmann or GGX do to a metal's highlight?
-    anisotropy         what do tangent fields do to the highlight on a sphere?
+    metal_highlight    how does a metal's highlight end, with Beckmann and with GGX?
+    anisotropy         which way does a field of tangents stretch a highlight?
 
 Beside the experiments stand what some of them share: `record` writes results,
 `hard_cases` lists directions and parameters, `textbook` has the formulas as they are

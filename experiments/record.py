@@ -17,7 +17,7 @@ from brdffit.plots import style
 RESULTS = Path(__file__).parents[1] / "results"
 PACKAGES = ("brdffit", "jax", "jaxlib", "numpy", "matplotlib", "mpmath")
 DIGITS = 6
-COLOURS = 128
+DITHER = Image.Dither.FLOYDSTEINBERG
 
 
 class Record:
@@ -49,12 +49,12 @@ class Record:
             print("  ".join(text[key].rjust(wide[key]) for key in wide))
 
     def figure(self, figure, name="figure"):
-        """Write a figure as PDF and as PNG, with as few colours as figures have."""
+        """Write a figure as PDF and as PNG, which is small with 256 colours."""
         for path in style.save(figure, self.folder, name):
             if path.suffix == ".png":
-                Image.open(path).convert("RGB").quantize(COLOURS).save(
-                    path, optimize=True
-                )
+                full = Image.open(path).convert("RGB")
+                few = full.quantize(palette=full.quantize(), dither=DITHER)
+                few.save(path, optimize=True)
 
     def close(self, **facts):
         """Write `run.toml`: versions, machine, seed, commit and time taken."""

@@ -222,7 +222,9 @@ def map_of(name, judged):
         axes.set_yticks(range(len(rows)), rows if first else [], size=6)
         if last:
             axes.set_xlabel("directions to light and viewer (rad: above the horizon)")
-    handles = [Patch(facecolor=c, label=m) for c, m in zip(COLOURS, MEANING)]
+    handles = [
+        Patch(facecolor=c, label=m) for c, m in zip(COLOURS, MEANING, strict=True)
+    ]
     figure.legend(
         handles=handles, loc="outside lower center", ncols=len(formulas) + 1, fontsize=8
     )
@@ -270,8 +272,10 @@ def overview(all_judged):
         axes.grid(visible=False, axis="y")
     left.set_yticks(range(len(names)), names)
     left.set_ylim(-0.6, len(names) - 0.4)
-    handles = [Patch(facecolor=c, label=m) for c, m in zip(COLOURS[1:], MEANING[1:])]
-    figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=8)
+    handles = [
+        Patch(facecolor=c, label=m) for c, m in zip(COLOURS, MEANING, strict=True)
+    ]
+    figure.legend(handles=handles[1:], loc="outside lower center", ncols=4, fontsize=8)
     shares = {f: bad / of for f, (bad, of) in total.items() if of}
     figure.suptitle(
         "float32 at hard directions and parameters: "
