@@ -19,6 +19,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from brdffit import numerics
+from brdffit.microfacet import chebyshev
 from brdffit.types import Direction, Scalar, Spectrum
 
 ALPHA = (9e-5, 1.02)  # of the table, a little more than models allow
@@ -54,7 +55,7 @@ def missing_albedo(cos_theta: Scalar, alpha: Scalar) -> Scalar:
     series, _ = table(cos_theta.dtype)
     a, basis = roughness_basis(alpha, series.shape[1])
     x = jnp.maximum(cos_theta / alpha, 1e-18)
-    smooth = clenshaw(jnp.asarray(series) @ basis, 2 * jnp.arcsinh(x) / a - 1)
+    smooth = chebyshev.clenshaw(jnp.asarray(series) @ basis, 2 * jnp.arcsinh(x) / a - 1)
     sine_squared = (1 - cos_theta) * (1 + cos_theta)
     r = numerics.sqrt(cos_theta * cos_theta + alpha * alpha * sine_squared)
     grazing = 0.5 * cos_theta * r * jnp.log1p(1 / x / x)
@@ -77,21 +78,13 @@ def roughness_basis(alpha: Scalar, count: int) -> tuple[Scalar, Spectrum]:
     return a, jnp.cos(np.arange(count) * angle)
 
 
-def clenshaw(coefficients: Spectrum, x: Scalar) -> Scalar:
-    """Sum of a Chebyshev series at ``x`` in [-1, 1]."""
-    ahead, current = jnp.zeros_like(x), jnp.zeros_like(x)
-    for n in range(coefficients.shape[0] - 1, 0, -1):
-        current, ahead = 2 * x * current - ahead + coefficients[n], current
-    return x * current - ahead + coefficients[0]
-
-
 @functools.cache
 def table(dtype: np.dtype) -> tuple[np.ndarray, np.ndarray]:
     """Chebyshev series of ``T(t, a)`` and of ``log((1 - mean E) / alpha^2)``."""
     count_t, count_a = TERMS[np.dtype(np.float64)]
     high, low = np.arcsinh(1 / np.array(ALPHA))
-    t = (1 + chebyshev_nodes(count_t)) / 2
-    a = (high + low) / 2 + (high - low) / 2 * chebyshev_nodes(count_a)
+    t = (1 + chebyshev.nodes(count_t)) / 2
+    a = (high + low) / 2 + (high - low) / 2 * chebyshev.nodes(count_a)
     alpha, x = 1 / np.sinh(a), np.sinh(t[:, None] * a)
     mu = alpha * x
     r = np.sqrt(mu**2 + alpha**2 * (1 - mu**2))
@@ -103,24 +96,11 @@ def table(dtype: np.dtype) -> tuple[np.ndarray, np.ndarray]:
     average = np.sum(
         weight[:, None] * missing(mu, alpha) * mu * alpha * np.cosh(t * a) * a, axis=0
     )
-    to_t, to_a = (chebyshev_transform(count) for count in (count_t, count_a))
+    to_t, to_a = (chebyshev.transform(count) for count in (count_t, count_a))
     terms_t, terms_a = TERMS[np.dtype(dtype)]
     series = (to_t @ smooth @ to_a.T)[:terms_t, :terms_a]
     means = (to_a @ np.log(average / alpha**2))[:terms_a]
     return series.astype(dtype), means.astype(dtype)
-
-
-def chebyshev_nodes(count: int) -> np.ndarray:
-    """Roots of the Chebyshev polynomial of degree ``count``."""
-    return np.cos(np.pi * (np.arange(count) + 0.5) / count)
-
-
-def chebyshev_transform(count: int) -> np.ndarray:
-    """Matrix from values at `chebyshev_nodes` to coefficients of the series."""
-    n = np.arange(count)
-    matrix = np.cos(np.pi * np.outer(n, n + 0.5) / count) * 2 / count
-    matrix[0] /= 2
-    return matrix
 
 
 def missing(mu: np.ndarray, alpha: np.ndarray) -> np.ndarray:
