@@ -139,7 +139,7 @@ def chart(rows):
         axes.plot(numbers, names, mark, label=label, color=colour, markersize=5)
     end = float(np.finfo(np.float32).max)
     axes.axvline(end, color="black", linewidth=0.8)
-    axes.text(end / 3, 0.5, "float32 ends", rotation=90, ha="right", size=7)
+    axes.text(end / 3, 0, "float32 ends", rotation=90, ha="right", va="top", size=7)
     axes.set(xscale="log", ylim=(len(rows) - 0.4, -0.6))
     axes.set_xlabel("largest magnitude among all pairs (values and gradients in 1/sr)")
     figure.legend(loc="outside lower center", ncols=3)

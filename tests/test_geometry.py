@@ -110,3 +110,29 @@ def test_cylindrical_tangent_runs_around_the_y_axis(pairs):
     assert jnp.allclose(geometry.cylindrical_tangent(NORMAL), jnp.array([1.0, 0, 0]))
     on_the_axis = geometry.cylindrical_tangent(jnp.array([0.0, 1.0, 0.0]))
     assert np.all(np.isfinite(on_the_axis))
+
+
+@pytest.mark.parametrize("field", geometry.TANGENTS)
+def test_tangents_are_unit_vectors_on_the_surface(field, pairs):
+    normal, _ = pairs
+    tangent = np.asarray(each(geometry.TANGENTS[field])(normal), float)
+    np.testing.assert_allclose(np.sum(tangent * normal, axis=1), 0, atol=1e-6)
+    np.testing.assert_allclose(np.linalg.norm(tangent, axis=1), 1, rtol=1e-6)
+    towards_x = geometry.TANGENTS[field](NORMAL)
+    np.testing.assert_allclose(towards_x, [1, 0, 0], atol=1e-7)
+
+
+def test_linear_tangent_has_no_part_across_the_x_axis(pairs):
+    normal, _ = pairs
+    tangent = np.asarray(each(geometry.linear_tangent)(normal), float)
+    across = np.cross(normal, [1.0, 0.0, 0.0])
+    np.testing.assert_allclose(np.sum(tangent * across, axis=1), 0, atol=1e-6)
+    assert np.all(tangent[:, 0] > 0)
+
+
+def test_radial_tangent_leaves_the_z_axis(pairs):
+    normal, _ = pairs
+    tangent = np.asarray(each(geometry.radial_tangent)(normal), float)
+    assert np.all(np.sum(tangent[:, :2] * normal[:, :2], axis=1) > 0)
+    turned = tangent[:, 0] * normal[:, 1] - tangent[:, 1] * normal[:, 0]
+    np.testing.assert_allclose(turned, 0, atol=1e-6)

@@ -32,8 +32,11 @@ class OrenNayarFull(AbstractBRDF):
     digits survive the product with $\tan\beta$ at grazing.
 
     Range:
-        $f_r \ge 0$; equals Lambert at $\sigma = 0$. With $\rho = 1$ the directional
-        albedo exceeds 1 towards grazing for every $\sigma$ up to 0.6, by up to 5.1 % at
+        Equals Lambert at $\sigma = 0$. Negative for dark surfaces with
+        $\sigma > 0.66$, where light and viewer are at opposite azimuths and both more
+        than 60 degrees from the normal: down to $-0.27\,\rho/\pi$ at grazing,
+        $\sigma = \pi/2$ and $\rho \to 0$. With $\rho = 1$ the directional albedo
+        exceeds 1 towards grazing for every $\sigma$ up to 0.6, by up to 5.1 % at
         $\sigma = 0.30$ and 90 degrees.
 
     Source:

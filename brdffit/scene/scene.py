@@ -41,7 +41,7 @@ class Scene(eqx.Module):
 
     def __check_init__(self) -> None:
         """Check what can be wrong about the whole."""
-        look_up(TANGENTS, self.tangents, "`tangents`")
+        look_up(TANGENTS, str(self.tangents), "`tangents`")
         if not self.lights:
             raise ValueError("`lights` must hold at least one light.")
         sizes = {light.irradiance.shape for light in self.lights} - {()}

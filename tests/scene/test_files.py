@@ -47,7 +47,7 @@ def test_a_file_says_what_the_scene_is(tmp_path):
 def test_a_scene_survives_a_file_to_the_last_bit(tmp_path):
     path = tmp_path / "scene.toml"
     direction = np.array([0.1, 0.2, 0.3]) / np.linalg.norm([0.1, 0.2, 0.3])
-    scene = lit_sphere(33, [direction], [1 / 3, 2 / 3, 1e-9], exposure=0.1)
+    scene = lit_sphere(33, [direction], [1 / 3, 2 / 3, 1e-9], 0.1, "linear")
     save_scene(scene, path, {"model": "ggx", "noise": {"seed": 3}})
     assert load_scene(path) == scene
     assert '[provenance]\nmodel = "ggx"' in path.read_text()
@@ -72,6 +72,8 @@ def test_a_scene_survives_a_file_to_the_last_bit(tmp_path):
         ("= 16", "= 16.5", "`resolution` must be a whole number, 1 or above, but is"),
         ("= 16", "= true", "`resolution` must be a whole number, 1 or above, but is"),
         ("exposure = 2", "exposure = 0", "`exposure` must be one number above 0"),
+        ("exposure = 2", 'tangents = "radail"', "`radail` must be .* mean `radial`?"),
+        ("exposure = 2", "tangents = 5", "`tangents` `5` must be one of linear"),
         ("exposure = 2", 'exposure = "2"', "`exposure` must consist of finite number"),
         ("[camera]", "[[camera]]", "`camera` must be a table"),
         ("[camera]", "[camera", "is not TOML"),
