@@ -117,7 +117,7 @@ def _sums(g: Scalar, c: Scalar) -> tuple[Scalar, Scalar, Scalar]:
     An array of all orders of all directions would not fit in a cache.
     """
     dtype = g.dtype
-    g = jnp.maximum(g, jnp.finfo(dtype).tiny)
+    g = jnp.maximum(g, jnp.finfo(dtype).tiny ** 0.5)
     low, step = _orders(g, c)
 
     def add(index, sums):
