@@ -11,7 +11,16 @@ from brdffit.fit import FitResult
 from brdffit.models import AbstractBRDF
 from brdffit.names import look_up
 from brdffit.plots.plane import Plane, planes
-from brdffit.plots.style import DATA, MUTED, legend, lines, new_figure, spread, styled
+from brdffit.plots.style import (
+    DATA,
+    MUTED,
+    entitle,
+    legend,
+    lines,
+    new_figure,
+    spread,
+    styled,
+)
 from brdffit.render.shading import compiled_shade
 from brdffit.samples import Measurement, Samples, as_samples
 
@@ -67,7 +76,7 @@ def lobe_figure(
         title += f", channel {names[place]}"
     if len(shown) < len(results):
         title += f", the best {len(shown)} of {len(results)} models"
-    figure.suptitle(title)
+    entitle(figure, title)
     return figure
 
 
@@ -84,7 +93,8 @@ def plot_lobe(
     The linear scale ends above the highest sample; where a model goes beyond it, the
     logarithmic scale shows how far.
     """
-    drawn = spread(range(len(plane.angle)), POINTS)
+    used = np.flatnonzero(np.isfinite(plane.f_r[:, channel]))
+    drawn = spread(used.tolist(), POINTS)
     measured = plane.f_r[drawn, channel]
     few = len(drawn) <= MANY
     marks = {"mfc": "none", "ms": 3.5} if few else {"mfc": DATA, "ms": 1.6}
@@ -98,7 +108,7 @@ def plot_lobe(
         zorder=1,
         **marks,
     )
-    highest = np.nanmax(measured)
+    highest = np.max(measured, initial=0)
     for (name, brdf), line in zip(models.items(), lines(len(models)), strict=True):
         value = predicted(brdf, plane)[:, channel]
         highest = np.nanmax([highest, *value])
@@ -109,7 +119,7 @@ def plot_lobe(
         axes.set_ylim(np.min(measured[measured > 0], initial=highest) / 2, 2 * highest)
         label_decimals(axes)
     else:
-        axes.set_ylim(0, 1.2 * np.nanmax(measured))
+        axes.set_ylim(0, 1.2 * np.max(measured, initial=0) or 1)
     axes.set(xlabel=plane.label, ylabel=r"$f_r$ [1/sr]")
     axes.set_xticks(np.arange(-90, 91, 30))
 

@@ -37,7 +37,7 @@ class Plane:
         title: What is fixed.
         label: What the angle is.
         angle: Signed angle of each sample in degrees.
-        f_r: Measured reflectance.
+        f_r: Measured reflectance, NaN where it must not be used.
         curve: Signed angles at which models are drawn.
         wi: Directions to the light along the curve.
         wo: Directions to the viewer along the curve.
@@ -63,10 +63,11 @@ def planes(data: Measurement | Samples) -> list[Plane]:
     samples = as_samples(data)
     if samples.value is None or samples.wi.shape[1] != 1:
         return []
-    valid = np.asarray(samples.wi)[:, 0, 2] > 0
+    valid = np.isfinite(samples.f_r) & (np.asarray(samples.wi)[:, 0, 2:] > 0)
     if samples.mask is not None:
-        valid &= np.asarray(samples.mask).all(axis=1)
-    samples = samples.take(valid)
+        valid &= np.asarray(samples.mask)
+    value = np.where(valid, np.asarray(samples.value), np.nan)
+    samples = dataclasses.replace(samples, value=value).take(valid.any(axis=1))
     if samples.pixels is not None:
         found = [great_circle(samples, f) for f in range(samples.pixels.shape[0])]
     else:
@@ -80,18 +81,18 @@ def planes(data: Measurement | Samples) -> list[Plane]:
 def planes_of_incidence(samples: Samples) -> Iterator[Plane]:
     """Planes that were measured as such, one for each direction of incidence."""
     theta, phi = polar(samples.wi[:, 0])
-    phi = np.where(theta < SAME, 0, phi)
+    phi = np.where(theta < SAME, 0, phi % 360)
     rounded = np.round(np.stack([theta, phi], axis=1) / SAME).astype(int)
     settings, member = np.unique(rounded, axis=0, return_inverse=True)
     if len(settings) > SETTINGS:
         return
-    several = len(np.unique(settings[:, 1])) > 1
+    several = len(np.unique(settings[settings[:, 0] > 0, 1])) > 1
     for number in range(len(settings)):
         here = member == number
         theta_i, phi_i = theta[here].mean(), phi[here].mean()
-        title = rf"$\theta_i = {theta_i:.3g}\degree$"
+        title = rf"$\theta_i = {round(theta_i, 1):g}\degree$"
         if several:
-            title += rf", $\phi_i = {phi_i:.3g}\degree$"
+            title += rf", $\phi_i = {round(phi_i, 1):g}\degree$"
         group = samples.take(here)
         if theta_i < SAME:
             phi_i = fullest_azimuth(group)

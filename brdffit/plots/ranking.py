@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from brdffit.fit.residual import RESIDUALS
 from brdffit.fit.select import Comparison
-from brdffit.plots.style import COLOURS, NO_DATA, new_figure, styled
+from brdffit.plots.style import COLOURS, NO_DATA, entitle, new_figure, styled
 
 HEADINGS = {  # right edge of each column, in widths of the table
     "held-out\nerror": 0.19,
@@ -23,9 +23,10 @@ def ranking_figure(comparison: Comparison) -> Figure:
     bars, table = figure.subplots(1, 2, width_ratios=(5, 6), sharey=True)
     plot_errors(bars, comparison)
     plot_table(table, comparison)
-    figure.suptitle(
+    entitle(
+        figure,
         f"{comparison.data}: models ranked by their error on "
-        f"{comparison.held_out_count} held-out directions"
+        f"{comparison.held_out_count} held-out directions",
     )
     return figure
 

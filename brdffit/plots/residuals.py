@@ -13,7 +13,7 @@ from brdffit.fit.blocks import usable
 from brdffit.models import AbstractBRDF
 from brdffit.names import look_up
 from brdffit.plots.plane import polar
-from brdffit.plots.style import COLOURS, MUTED, new_figure, styled
+from brdffit.plots.style import COLOURS, MUTED, entitle, new_figure, styled
 from brdffit.render.shading import compiled_shade
 from brdffit.samples import Measurement, Samples, as_samples
 from brdffit.types import Values
@@ -69,9 +69,10 @@ def residuals_figure(
     )
     figure.supylabel(f"fitted - measured {residual.label}", size=9)
     best = f", the best {len(shown)} of {len(results)} models"
-    figure.suptitle(
+    entitle(
+        figure,
         f"{data.name}: residual against angle"
-        f"{best if len(shown) < len(results) else ''}"
+        f"{best if len(shown) < len(results) else ''}",
     )
     return figure
 

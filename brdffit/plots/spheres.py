@@ -15,7 +15,7 @@ from matplotlib.image import AxesImage
 from brdffit import images
 from brdffit.fit import FitResult
 from brdffit.models import AbstractBRDF
-from brdffit.plots.style import DIVERGING, NO_DATA, new_figure, spread, styled
+from brdffit.plots.style import DIVERGING, NO_DATA, entitle, new_figure, spread, styled
 from brdffit.render import trace
 from brdffit.render.shading import compiled_shade
 from brdffit.samples import Measurement, Samples
@@ -45,10 +45,10 @@ def spheres_figure(
     )
     if isinstance(data, Samples) and data.pixels is not None:
         figure = _differences(data, shown)
-        figure.suptitle(f"{data.name}: measured and fitted spheres{best}")
+        entitle(figure, f"{data.name}: measured and fitted spheres{best}")
     else:
         figure = _rendered(shown)
-        figure.suptitle(f"{data.name}: spheres rendered with the fits{best}")
+        entitle(figure, f"{data.name}: spheres rendered with the fits{best}")
     return figure
 
 

@@ -5,6 +5,7 @@ own line style, which a black-and-white print keeps apart. Figures are made with
 pyplot: nothing is opened, and no setting of matplotlib is changed for others.
 """
 
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -32,6 +33,7 @@ DASHES = (
     (0, (2.5, 1)),
 )
 FORMATS = ("png", "pdf")
+CHARACTERS = 12  # of a title, per inch
 RESOLUTION = 150  # dots per inch of a PNG
 
 LOOK: Any = {
@@ -96,6 +98,13 @@ def spread(items: Sequence[Item], count: int) -> list[Item]:
 def new_figure(width: float, height: float) -> Figure:
     """An empty figure, sized in inches, whose parts make room for each other."""
     return Figure((width, height), layout="constrained")
+
+
+def entitle(figure: Figure, words: str) -> None:
+    """Set the title of a figure, in as many lines as its width asks for."""
+    room = int(CHARACTERS * figure.get_figwidth())
+    plain = words.replace("$", r"\$")  # names of data are no formulas
+    figure.suptitle("\n".join(textwrap.wrap(plain, room)))
 
 
 def save(figure: Figure, folder: Path, name: str) -> list[Path]:

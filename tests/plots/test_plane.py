@@ -73,6 +73,28 @@ def test_masked_samples_are_left_out(goniometer):
     assert plane.angle.min() > -31
 
 
+def test_a_value_masked_in_one_channel_leaves_the_others(goniometer):
+    wide = dataclasses.replace(goniometer, f_r=np.repeat(goniometer.f_r, 2, axis=1))
+    mask = np.ones(wide.f_r.shape, bool)
+    mask[:, 1] = False
+    plane = planes(dataclasses.replace(wide, mask=mask, channels=("a", "b")))[1]
+    assert np.isfinite(plane.f_r[:, 0]).all()
+    assert np.isnan(plane.f_r[:, 1]).all()
+
+
+def test_azimuth_is_told_only_where_it_differs():
+    both = brdffit.Goniometer([0, 30], ANGLES, [0, 180])
+    data = brdffit.simulate_measurement(GLOSS, both)
+    assert not any("phi" in plane.title for plane in planes(data))
+    turned = dataclasses.replace(data, wi=data.wi * np.float32([-1, -1, 1]))
+    joined = {
+        name: np.concatenate([getattr(data, name), getattr(turned, name)])
+        for name in ("wi", "wo", "f_r")
+    }
+    found = planes(dataclasses.replace(data, **joined))
+    assert [r"\phi_i = 180" in plane.title for plane in found] == [False, False, True]
+
+
 def test_scattered_directions_are_gathered_within_five_degrees():
     rng = np.random.default_rng(0)
     wi, wo = rng.standard_normal((2, 20000, 3))

@@ -2,7 +2,7 @@ import matplotlib as mpl
 import pytest
 from matplotlib.figure import Figure
 
-from brdffit.plots.style import lines, new_figure, save, spread, styled
+from brdffit.plots.style import entitle, lines, new_figure, save, spread, styled
 
 
 def test_six_models_have_six_looks():
@@ -43,3 +43,12 @@ def test_the_look_does_not_leak():
 
     assert inside()
     assert mpl.rcParams["axes.grid"] == before
+
+
+def test_a_long_title_takes_several_lines_and_no_formula():
+    figure = new_figure(3.0, 2.0)
+    entitle(figure, "a name with $ and $, " * 4)
+    lines_of_title = figure.get_suptitle().splitlines()
+    assert len(lines_of_title) > 1
+    assert max(len(line) for line in lines_of_title) < 40
+    assert r"\$" in lines_of_title[0]
