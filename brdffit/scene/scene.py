@@ -37,11 +37,11 @@ class Scene(eqx.Module):
     exposure: float = eqx.field(
         default=1.0, converter=partial(values.positive, "exposure")
     )
-    tangents: str = eqx.field(static=True, default="cylindrical")
+    tangents: str = eqx.field(static=True, default="cylindrical", converter=str)
 
     def __check_init__(self) -> None:
         """Check what can be wrong about the whole."""
-        look_up(TANGENTS, str(self.tangents), "`tangents`")
+        look_up(TANGENTS, self.tangents, "`tangents`")
         if not self.lights:
             raise ValueError("`lights` must hold at least one light.")
         sizes = {light.irradiance.shape for light in self.lights} - {()}
