@@ -6,8 +6,6 @@ replaces the argument before the singular operation, because ``jnp.where`` after
 would still multiply an infinite derivative by zero and return NaN.
 """
 
-import math
-
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -15,10 +13,8 @@ Real = Float[Array, "..."]
 
 # of log(1 + x) / x, highest power first
 LOG1P_SERIES = tuple((-1) ** n / (n + 1) for n in reversed(range(11)))
-# of arcsin(x) / x in powers of x^2, highest first
-ARCSIN_SERIES = tuple(
-    math.comb(2 * n, n) / (4**n * (2 * n + 1)) for n in reversed(range(11))
-)
+# of arctan(x) / x in powers of x^2, highest first
+ARCTAN_SERIES = tuple((-1) ** n / (2 * n + 1) for n in reversed(range(20)))
 
 SQRT_PI = 1.7724538509055159
 
@@ -95,14 +91,18 @@ def log_ratio(x: Real) -> Real:
     return jnp.where(close, near, jnp.log(apart) / (apart - 1))
 
 
-def arcsin_ratio(sine: Real, cosine: Real) -> Real:
-    """Angle over its sine, at most a right angle: 1 at 0, where it is 0 / 0."""
-    small = sine < 0.2
-    square, series = sine * sine, jnp.zeros_like(sine)
-    for coefficient in ARCSIN_SERIES:
+def angle_ratio(sine: Real, cosine: Real) -> Real:
+    """Angle over its sine for a point of the unit circle with ``cosine >= 0``.
+
+    By the tangent of a quarter of the angle: neither 0 / 0 at the angle 0 nor an
+    infinite derivative at a right angle, and several times faster than ``arctan2``.
+    """
+    half = sine / (1 + cosine)
+    root = 1 + sqrt(1 + half * half)
+    square, series = (half / root) ** 2, jnp.zeros_like(sine)
+    for coefficient in ARCTAN_SERIES:
         series = series * square + coefficient
-    apart = jnp.where(small, 1.0, sine)
-    return jnp.where(small, series, arctan2(apart, cosine) / apart)
+    return 4 * series / ((1 + cosine) * root)
 
 
 def cbrt(x: Real) -> Real:
@@ -111,9 +111,12 @@ def cbrt(x: Real) -> Real:
     return jnp.where(positive, jnp.cbrt(jnp.where(positive, x, 1.0)), 0.0)
 
 
-def norm_of(*components: Real) -> Real:
+def norm_of(first: Real, *others: Real) -> Real:
     """``sqrt`` of the sum of squares; the derivative is 0 where all are zero."""
-    return sqrt(sum(component * component for component in components))
+    total = first * first
+    for component in others:
+        total = total + component * component
+    return sqrt(total)
 
 
 def norm(v: Float[Array, " n"]) -> Float[Array, ""]:

@@ -79,6 +79,6 @@ def deficit(w: Direction) -> Scalar:
     """``c_1 - G / pi``, the energy that single scattering loses, over ``A r``."""
     x, y, mu = w
     s = numerics.norm_of(x, y)
-    angle = numerics.arctan2(mu, s)
+    angle = mu * numerics.angle_ratio(mu, s)
     turn = (jnp.pi / 2 - 2 / 3) * mu * mu - 2 / 3 * s * mu * (1 + s + s * s)
     return (turn / (1 + s) + s * angle + s * s * mu) / jnp.pi

@@ -71,8 +71,8 @@ class OrenNayarFull(AbstractBRDF):
         together = xi * xo + yi * yo  # cos(phi) sin(alpha) sin(beta)
         sin_alpha, cos_alpha = jnp.maximum(sin_i, sin_o), jnp.minimum(cos_i, cos_o)
         sin_beta, cos_beta = jnp.minimum(sin_i, sin_o), jnp.maximum(cos_i, cos_o)
-        alpha = 2 / jnp.pi * numerics.arctan2(sin_alpha, cos_alpha)
-        rise = 2 / jnp.pi * numerics.arcsin_ratio(cos_beta, sin_beta)
+        alpha = 2 / jnp.pi * sin_alpha * numerics.angle_ratio(sin_alpha, cos_alpha)
+        rise = 2 / jnp.pi * numerics.angle_ratio(cos_beta, sin_beta)
         u = rise * cos_beta
         beta = 1 - u  # both angles as fractions of a right angle
 
