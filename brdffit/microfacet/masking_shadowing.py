@@ -81,7 +81,7 @@ def area_ggx(w: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
     $$A = \tfrac12\Bigl(z + \sqrt{(\alpha_x x)^2 + (\alpha_y y)^2 + z^2}\Bigr)$$
 
     Source:
-        E. Heitz, JCGT 3(2), 2014, eq. 72 and 80.
+        E. Heitz, JCGT 3(2), 2014, eq. 72, stretched along both axes.
     """
     x, y, z = w
     return 0.5 * (z + numerics.norm_of(alpha_x * x, alpha_y * y, z))
@@ -95,7 +95,7 @@ def area_beckmann(w: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
       \qquad t = \sqrt{(\alpha_x x)^2 + (\alpha_y y)^2}$$
 
     Source:
-        E. Heitz, JCGT 3(2), 2014, eq. 66 and 80.
+        E. Heitz, JCGT 3(2), 2014, section 5.2, stretched along both axes.
     """
     x, y, z = w
     return _area_beckmann(z, numerics.norm_of(alpha_x * x, alpha_y * y))
@@ -158,7 +158,7 @@ def area_student_t(
     $\gamma \le 3/2$ the area is infinite.
 
     Source:
-        Derived from E. Heitz, JCGT 3(2), 2014, eq. 21, with the density of M.
+        Derived here from the definition of the area, with the density of M.
         Ribardiere et al., "STD: Student's t-Distribution of Slopes for Microfacet
         Based BSDFs", Computer Graphics Forum 36(2), 2017.
     """

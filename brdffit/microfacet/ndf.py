@@ -75,7 +75,7 @@ def gtr1(wh: Direction, alpha: Scalar) -> Scalar:
 
     Source:
         B. Burley, "Physically-Based Shading at Disney", SIGGRAPH 2012 course notes,
-        appendix B.2, eq. 4.
+        appendix B.2.
     """
     x, y, z = wh
     scale = 1 / numerics.norm_of(x, y, z)

@@ -28,7 +28,7 @@ class OrenNayar(AbstractBRDF):
 
     Source:
         M. Oren and S. K. Nayar, "Generalization of Lambert's Reflectance Model",
-        SIGGRAPH 1994, eq. 30, https://doi.org/10.1145/192161.192213
+        SIGGRAPH 1994, the qualitative model, https://doi.org/10.1145/192161.192213
     """
 
     albedo: Spectrum = parameter(
