@@ -14,6 +14,7 @@ ANGLES = (0.0, 30.0, 60.0, 80.0, 89.0)
 LOBE = {"diffuse": [0.0], "specular": [1.0]}
 METAL = {"specular": [1.0], "alpha": 0.3, "eta": [0.2], "k": [3.9]}
 GLASS = {"specular": [1.0], "alpha": 0.3, "eta": 1.5}
+ALUMINIUM = {"eta": [0.96], "k": [6.7], "diffuse": [0.0], "wavelengths": [0.5]}
 MIRROR = {"diffuse": [0.0], "specular": [1.0], "f0": 1.0}
 
 # directional albedo at ANGLES by adaptive quadrature with many digits
@@ -109,6 +110,28 @@ FACTS = [
         {"diffuse": [0.3], "specular": [0.5], "exponent": 10.0}
         | {"c_x": -0.9, "c_y": -0.9, "c_z": 0.9},
         (0.391284, 0.379054, 0.346074, 0.320818, 0.312046),
+    ),
+    (
+        "he",
+        ALUMINIUM | {"sigma0": 0.18, "tau": 3.0},
+        (0.921216, 0.920435, 0.893832, 0.420186, 0.039912),
+    ),
+    (
+        "he",
+        ALUMINIUM | {"sigma0": 0.05, "tau": 3.0},
+        (0.731294, 0.638894, 0.295837, 0.045387, 0.010721),
+    ),
+    (
+        "ggx_multiscatter",
+        {"diffuse": [0.0], "f0": [0.5], "alpha": 0.5},
+        (0.415092, 0.414056, 0.422974, 0.469867, 0.532415),
+    ),
+    ("ggx_multiscatter", {"diffuse": [0.0], "f0": [1.0], "alpha": 1.0}, (1,) * 5),
+    ("ggx_multiscatter", {"diffuse": [0.0], "f0": [1.0], "alpha": 0.05}, (1,) * 5),
+    (
+        "principled",
+        {"base": [1.0], "metallic": 1.0, "roughness": 0.5, "separable": True},
+        (0.915812, 0.904024, 0.855099, 0.835117, 0.889985),
     ),
 ]
 
