@@ -197,6 +197,7 @@ def test_albedo_has_a_gradient():
     """The derivative by alpha is the limit of differences."""
     wi = incident(60.0)
 
+    @jax.jit
     def reflected(alpha):
         return directional_albedo(MODELS["ggx_lobe"](f0=[1.0], alpha=alpha), wi)[0]
 
