@@ -10,7 +10,7 @@ from rich.measure import Measurement
 from rich.table import Table
 
 from brdffit.fit import FitResult
-from brdffit.fit.select import Comparison
+from brdffit.fit.select import Comparison, Entry
 from brdffit.parameters import parameters
 
 LOST = "undetermined"
@@ -80,22 +80,14 @@ def residual_table(result: FitResult) -> Table:
 def ranking_table(comparison: Comparison) -> Table:
     """The ranking, the best model first."""
     best = min(entry.result.aicc for entry in comparison.entries)
+    known = comparison.best.chi_square is not None
     table = new_table(
         *("", "model", "held-out error", "rms", "AICc", "above best"),
-        *("chi-square per value", "free numbers", "seconds", "remarks"),
+        *(["chi-square per value"] if known else []),
+        *("free numbers", "seconds", "remarks"),
     )
     for place, entry in enumerate(comparison.entries, start=1):
         result = entry.result
-        chi_square = result.chi_square
-        remarks = []
-        if place > 1 and entry.tied:
-            remarks.append("tied with the best")
-        if not result.converged:
-            remarks.append("not converged")
-        if result.at_bound:
-            remarks.append(f"at bound: {', '.join(result.at_bound)}")
-        if result.undetermined:
-            remarks.append(f"undetermined: {', '.join(result.undetermined)}")
         table.add_row(
             str(place),
             result.model,
@@ -103,12 +95,25 @@ def ranking_table(comparison: Comparison) -> Table:
             f"{result.rms[comparison.residual]:#.4g}",
             f"{result.aicc:,.1f}",
             f"{result.aicc - best:,.1f}",
-            "" if chi_square is None else f"{chi_square / result.count:#.4g}",
+            *([f"{(result.chi_square or 0) / result.count:#.4g}"] if known else []),
             str(len(result.labels)),
             f"{result.seconds:.1f}",
-            "; ".join(remarks),
+            "; ".join(remarks(entry, best=place == 1)),
         )
     return table
+
+
+def remarks(entry: Entry, *, best: bool) -> Iterator[str]:
+    """What to know about one model beside its numbers."""
+    result = entry.result
+    if entry.tied and not best:
+        yield "tied with the best"
+    if not result.converged:
+        yield "not converged"
+    if result.at_bound:
+        yield f"at bound: {', '.join(result.at_bound)}"
+    if result.undetermined:
+        yield f"undetermined: {', '.join(result.undetermined)}"
 
 
 def side_by_side(comparison: Comparison, console: Console) -> Iterator[Table]:

@@ -26,6 +26,7 @@ from brdffit.samples import Measurement, Samples, as_samples
 
 PANELS = 4  # most panels side by side
 MODELS = 5  # most models in one panel
+HEADROOM = 1.6  # times the highest sample that a linear scale leaves for models
 POINTS = 1500  # most samples in a panel, evenly spread
 MANY = 120  # samples in a panel beyond which their marks are small
 
@@ -90,8 +91,8 @@ def plot_lobe(
 ) -> None:
     """Draw one plane: samples as circles, models as lines, the mirror angle dotted.
 
-    The linear scale ends above the highest sample; where a model goes beyond it, the
-    logarithmic scale shows how far.
+    The linear scale ends at twice the highest sample at most; where a model goes beyond
+    it, the logarithmic scale shows how far.
     """
     used = np.flatnonzero(np.isfinite(plane.f_r[:, channel]))
     drawn = spread(used.tolist(), POINTS)
@@ -119,7 +120,8 @@ def plot_lobe(
         axes.set_ylim(np.min(measured[measured > 0], initial=highest) / 2, 2 * highest)
         label_decimals(axes)
     else:
-        axes.set_ylim(0, 1.2 * np.max(measured, initial=0) or 1)
+        top = np.max(measured, initial=0)
+        axes.set_ylim(0, 1.2 * min(max(top, highest), HEADROOM * top) or 1)
     axes.set(xlabel=plane.label, ylabel=r"$f_r$ [1/sr]")
     axes.set_xticks(np.arange(-90, 91, 30))
 

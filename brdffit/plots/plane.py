@@ -18,7 +18,8 @@ FEWEST = 5  # samples that make a lobe
 SETTINGS = 100  # directions of incidence beyond which they count as scattered
 SAME = 0.5  # degrees within which two angles of incidence are one
 THIN = 1.5  # degrees from its plane within which a sample is in it
-WIDE = 5.0  # the same where directions are scattered
+WIDTHS = (1.0, 2.0, 5.0)  # degrees within which scattered directions are gathered
+ENOUGH = 40  # samples in a plane that make the next width needless
 CENTRES = (
     15.0,
     30.0,
@@ -58,7 +59,7 @@ def planes(data: Measurement | Samples) -> list[Plane]:
     """All planes with enough samples; none where several lights shine at once.
 
     Scattered directions, of which no plane of incidence has enough, are gathered within
-    5 degrees and turned to one azimuth.
+    a few degrees and turned to one azimuth.
     """
     samples = as_samples(data)
     if samples.value is None or samples.wi.shape[1] != 1:
@@ -74,7 +75,7 @@ def planes(data: Measurement | Samples) -> list[Plane]:
         found = list(planes_of_incidence(samples))
     found = [plane for plane in found if plane and len(plane.angle) >= FEWEST]
     if not found and samples.pixels is None:
-        found = [plane for plane in gathered(samples) if len(plane.angle) >= FEWEST]
+        found = gathered(samples)
     return found
 
 
@@ -99,13 +100,21 @@ def planes_of_incidence(samples: Samples) -> Iterator[Plane]:
         yield cut(group, np.full(len(group), phi_i), theta_i, phi_i, THIN, title)
 
 
-def gathered(samples: Samples) -> Iterator[Plane]:
-    """Scattered samples near a few angles of incidence."""
+def gathered(samples: Samples) -> list[Plane]:
+    """Scattered samples near a few angles of incidence, as near as leaves enough."""
     theta, phi = polar(samples.wi[:, 0])
-    for centre in CENTRES:
-        near = np.abs(theta - centre) <= WIDE
-        title = rf"$\theta_i = {centre:.0f}\degree \pm {WIDE:.0f}\degree$"
-        yield cut(samples.take(near), phi[near], centre, 0.0, WIDE, title)
+    found = []
+    for width in WIDTHS:
+        found = []
+        for centre in CENTRES:
+            near = np.abs(theta - centre) <= width
+            title = rf"$\theta_i = {centre:.0f}\degree \pm {width:.0f}\degree$"
+            plane = cut(samples.take(near), phi[near], centre, 0.0, width, title)
+            if len(plane.angle) >= FEWEST:
+                found.append(plane)
+        if found and min(len(plane.angle) for plane in found) >= ENOUGH:
+            break
+    return found
 
 
 def cut(

@@ -82,14 +82,19 @@ def test_ranking_flags_ties_doubts_and_failures():
         comparison.entries[1].result,
         converged=False,
         at_bound={"exponent": "..."},
-        chi_square=250.0,
     )
-    entries = (
-        comparison.entries[0],
-        dataclasses.replace(comparison.entries[1], result=stuck),
-    )
-    text = text_of(ranking_table(dataclasses.replace(comparison, entries=entries)))
-    best, second = text.splitlines()[-2:]
-    assert "tied" not in best
-    assert "tied with the best; not converged; at bound: exponent" in second
-    assert "2.500" in second  # chi-square per value
+    second = dataclasses.replace(comparison.entries[1], result=stuck)
+    shown = dataclasses.replace(comparison, entries=(comparison.entries[0], second))
+    best_line, second_line = text_of(ranking_table(shown)).splitlines()[-2:]
+    assert "tied" not in best_line
+    assert "tied with the best; not converged; at bound: exponent" in second_line
+
+
+def test_chi_square_is_told_where_errors_are_known():
+    comparison = comparison_of(MODELS["ggx"]())
+    assert "chi-square" not in text_of(ranking_table(comparison))
+    known = dataclasses.replace(comparison.best, chi_square=250.0)
+    entry = dataclasses.replace(comparison.entries[0], result=known)
+    text = text_of(ranking_table(dataclasses.replace(comparison, entries=(entry,))))
+    assert "chi-square per value" in text
+    assert "2.500" in text  # for 100 values
