@@ -32,7 +32,11 @@ def effective_roughness(
       W e^W = \frac{(K_i + K_o)^2}{8\pi}, \qquad
       K = \tan\theta\;\mathrm{erfc}\frac{\tau\cot\theta}{2\sigma_0}$$
 
-    $W$ is $(z_0/\sigma_0)^2$ of the paper, whose eq. 80 and 81 are these.
+    $W$ is $(z_0/\sigma_0)^2$ of the paper.
+
+    Source:
+        X. He et al., "A Comprehensive Physical Model for Light Reflection", SIGGRAPH
+        1991, eq. 80-83.
     """
     rises = [_rise(w, sigma0, tau) for w in (wi, wo)]
     f = sum(rises) / numerics.sqrt(jnp.full_like(sigma0, 8 * jnp.pi))

@@ -33,8 +33,8 @@ class He(AbstractBRDF):
     errata say. Its $G$, eq. 76, is $(|H|^2/H_z)^2$ times a ratio of products of
     polarisation vectors that is 1 for all directions, and 0/0 in the retro direction.
 
-    The mirror image of a light, eq. 71, is a delta function and no part of `f_r`; its
-    strength is `specular_reflectance`.
+    The mirror image of a light is a delta function and no part of `f_r`; its strength
+    is `specular_reflectance`.
 
     Range:
         $f_r \ge 0$. With the mirror image and $F = 1$ albedo is 1 at normal incidence
@@ -45,8 +45,8 @@ class He(AbstractBRDF):
 
     Source:
         X. D. He, K. E. Torrance, F. X. Sillion and D. P. Greenberg, "A Comprehensive
-        Physical Model for Light Reflection", SIGGRAPH 1991, eq. 70-82,
-        https://doi.org/10.1145/122718.122738
+        Physical Model for Light Reflection", SIGGRAPH 1991, eq. 24, 25 and 76-83,
+        https://doi.org/10.1145/127719.122738
     """
 
     sigma0: Scalar = parameter(

@@ -32,8 +32,8 @@ class Lafortune(AbstractBRDF):
 
     Source:
         E. P. F. Lafortune, S.-C. Foo, K. E. Torrance and D. P. Greenberg, "Non-Linear
-        Approximation of Reflectance Functions", SIGGRAPH 1997, eq. 10 in the axes of
-        its section 3.2, https://doi.org/10.1145/258734.258801
+        Approximation of Reflectance Functions", SIGGRAPH 1997,
+        https://doi.org/10.1145/258734.258801
     """
 
     diffuse: Spectrum = parameter(
