@@ -44,6 +44,6 @@ def enable_compilation_cache(folder: str | Path | None = None) -> Path | None:
         # by default JAX keeps only what took long to compile
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0)
         jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
-        compilation_cache.reset_cache()  # forget that there was none
+        compilation_cache.reset_cache()  # forget the one that was used before
         return path
     return None

@@ -1,10 +1,14 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+import brdffit
 from brdffit.cache import enable_compilation_cache
+
+SOURCE = str(Path(brdffit.__file__).parents[1])
 
 FIT = """
 import jax
@@ -17,7 +21,6 @@ jax.monitoring.register_event_listener(
 import brdffit
 
 assert jax.config.jax_compilation_cache_dir is None, "importing changes no setting"
-brdffit.MODELS["lambert"]()
 print(brdffit.enable_compilation_cache())
 instrument = brdffit.Goniometer([30], range(0, 80, 10), [0, 180])
 data = brdffit.simulate_measurement(brdffit.MODELS["lambert"](albedo=[0.5]), instrument)
@@ -26,18 +29,34 @@ print(len(missed))
 """
 
 
-def run(folder):
+MOVE = """
+import jax
+import brdffit
+
+for number in range(2):
+    print(brdffit.enable_compilation_cache(f"kept{number}"))
+    jax.jit(lambda x: x + number)(1.0)
+"""
+
+
+def python(program, **options):
+    """Standard output of a program in a process that has not heard of JAX's cache."""
     plain = {key: value for key, value in os.environ.items() if key[:4] != "JAX_"}
     done = subprocess.run(
-        [sys.executable, "-c", FIT],
-        env={**plain, "BRDFFIT_CACHE": str(folder)},
+        [sys.executable, "-c", program],
+        env=plain | options.pop("environment", {}),
         capture_output=True,
         text=True,
         check=False,
+        **options,
     )
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
-    used, missed = done.stdout.splitlines()
+    return done.stdout
+
+
+def run(folder):
+    used, missed = python(FIT, environment={"BRDFFIT_CACHE": str(folder)}).split()
     return used, int(missed)
 
 
@@ -47,6 +66,12 @@ def test_a_second_fit_finds_all_its_programs_compiled(tmp_path):
     assert used == str(folder)
     assert missed > 10
     assert run(folder) == (str(folder), 0)
+
+
+def test_the_folder_can_be_changed_later(tmp_path):
+    folders = python(MOVE, cwd=tmp_path, environment={"PYTHONPATH": SOURCE}).split()
+    for folder in folders:
+        assert list((tmp_path / folder).glob("jit*-cache")), folder
 
 
 def test_nothing_is_kept_when_switched_off(monkeypatch):

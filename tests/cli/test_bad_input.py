@@ -169,7 +169,7 @@ def test_command_without_its_model(refuse, chalk):
         ("--set alpha=0.3,0.4 --out x.csv", "must be one number, but 2 are given"),
         ("--set f0=1,1,1 diffuse=0,0 --out x.csv", "must be 1 or 3 numbers"),
         ("--out x.txt", "must end in .csv (table) or .exr (image)"),
-        ("--lights 3 --out x.csv", "--lights says nothing about a .csv file"),
+        ("--lights 0 --out x.csv", "--lights says nothing about a .csv file"),
         ("--phi 0 --out x.exr", "--phi says nothing about a .exr file"),
         ("--lights 0 --out x.exr", "`--lights` must be a whole number, 1 or above"),
         ("--theta-i 95 --out x.csv", "must lie from 0 to below 90 degrees"),

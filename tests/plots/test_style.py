@@ -26,11 +26,17 @@ def test_a_figure_is_saved_as_png_and_pdf(tmp_path):
     assert sorted(tmp_path.iterdir()) == sorted(written)
 
 
-def test_a_figure_that_cannot_be_drawn_leaves_nothing(tmp_path):
-    figure = Figure()
-    figure.text(0, 0, r"$\unknowncommand$")
-    with pytest.raises(ValueError, match="unknowncommand"):
-        save(figure, tmp_path, "broken")
+class Unfinished(Figure):
+    """A figure whose file breaks off."""
+
+    def savefig(self, path, **_):
+        path.write_bytes(b"half")
+        raise RuntimeError("no more ink")
+
+
+def test_a_figure_that_breaks_off_leaves_nothing(tmp_path):
+    with pytest.raises(RuntimeError, match="no more ink"):
+        save(Unfinished(), tmp_path, "broken")
     assert list(tmp_path.iterdir()) == []
 
 
