@@ -36,7 +36,6 @@ def compare(
     """
     from brdffit.catalogue import from_name
     from brdffit.cli.inputs import read_data
-    from brdffit.cli.pictures import write_pictures
     from brdffit.cli.printing import print_comparison
     from brdffit.cli.spreadsheet import write_tables
     from brdffit.files import require_writable
@@ -68,6 +67,8 @@ def compare(
         )
         written = []
         if out:
+            from brdffit.cli.pictures import write_pictures
+
             out.mkdir(parents=True, exist_ok=True)
             comparison.save(out / "comparison.json")
             written = [out / "comparison.json", *write_tables(comparison, out)]

@@ -38,7 +38,6 @@ def fit(
     """
     from brdffit.catalogue import from_name
     from brdffit.cli.inputs import read_data
-    from brdffit.cli.pictures import write_pictures
     from brdffit.cli.printing import print_fit
     from brdffit.files import require_writable
     from brdffit.fit import RESIDUALS
@@ -60,6 +59,8 @@ def fit(
         )
         written = []
         if out:
+            from brdffit.cli.pictures import write_pictures
+
             out.mkdir(parents=True, exist_ok=True)
             result.save(out / "result.json")
             written = [out / "result.json"]

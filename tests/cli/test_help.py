@@ -30,6 +30,14 @@ def test_help_comes_at_once_and_loads_nothing_heavy(arguments):
     assert float(seconds) < 0.7  # of one core; 0.2 where nothing else runs
 
 
+def test_a_fit_without_pictures_loads_nothing_that_draws(chalk):
+    fit = ["fit", str(chalk), "--model", "lambert"]
+    status, _, loaded = last_line_of(fit)
+    assert status == "0"
+    assert "matplotlib" not in loaded
+    assert "colour" not in loaded
+
+
 def test_every_command_has_its_line(run):
     status, out, err = run("--help")
     assert (status, err) == (0, "")
