@@ -67,8 +67,11 @@ class Eon(AbstractBRDF):
         rho, r = self.albedo, self.roughness
         a = 1 / (1 + C1 * r)
         s = xi * xo + yi * yo
-        t = jnp.where(s > 0, jnp.maximum(cos_i, cos_o), 1.0)
-        single = a * (1 + r * s / t)
+        back = 1 + r * s / jnp.maximum(cos_i, cos_o)
+        # 1 + s without its cancellation, for directions that graze opposite each other
+        x, y = xi + xo, yi + yo
+        apart = 0.5 * (x * x + y * y + cos_i * cos_i + cos_o * cos_o)
+        single = a * jnp.where(s > 0, back, (1 - r) + r * apart)
         average = a * (1 + C2 * r)
         lost = a * r / (C1 - C2) * deficit(wi) * deficit(wo)
         multiple = rho * rho * average / (1 - rho * (1 - average))

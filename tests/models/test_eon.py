@@ -34,3 +34,12 @@ def test_colours_saturate_as_light_bounces_more_often():
     wi, wo = jnp.array([0.6, 0.0, 0.8]), jnp.array([0.0, 0.6, 0.8])
     value = Eon(albedo=[0.9, 0.3], roughness=1.0)(wi, wo)
     assert value[0] / value[1] > 0.9 / 0.3
+
+
+def test_light_that_grazes_towards_the_viewer_is_not_negative():
+    """1 + s of the first term vanishes there."""
+    angle = jnp.linspace(0.0, 3.0, 500)
+    flat = jnp.stack([jnp.cos(angle), jnp.sin(angle), jnp.full(500, 1e-6)], axis=1)
+    dark = Eon(albedo=[0.001], roughness=1.0)
+    value = jax.vmap(dark)(flat, flat * jnp.array([-1.0, -1.0, 1.0]))
+    assert np.all(value >= 0)
