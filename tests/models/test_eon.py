@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from brdffit.albedo import directional_albedo
+from brdffit.geometry import mirror
 from brdffit.models import Eon, Lambert
 from tests.sampling import incident, random_directions
 
@@ -41,5 +42,5 @@ def test_light_that_grazes_towards_the_viewer_is_not_negative():
     angle = jnp.linspace(0.0, 3.0, 500)
     flat = jnp.stack([jnp.cos(angle), jnp.sin(angle), jnp.full(500, 1e-6)], axis=1)
     dark = Eon(albedo=[0.001], roughness=1.0)
-    value = jax.vmap(dark)(flat, flat * jnp.array([-1.0, -1.0, 1.0]))
+    value = jax.vmap(dark)(flat, jax.vmap(mirror)(flat))
     assert np.all(value >= 0)
