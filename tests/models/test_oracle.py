@@ -4,8 +4,11 @@ A number may differ from the oracle by rounding, and by what rounding of the inp
 directions does to it; the second is looked at only where the first does not suffice.
 """
 
+import functools
+
 import jax
 import jax.numpy as jnp
+import mpmath
 import numpy as np
 import pytest
 
@@ -13,17 +16,29 @@ from brdffit.models import MODELS
 from brdffit.parameters import replace, spectral_fields
 from tests.oracle import ORACLE
 from tests.oracle.cases import cases
-from tests.oracle.derivatives import truth
+from tests.oracle.derivatives import reflectance, truth
+from tests.oracle.record import SLOW, recorded
 
 every_model = pytest.mark.parametrize("name", sorted(ORACLE))
 
 # relative error of value and derivative, and of a direction (for the sensitivity)
 SINGLE = (2e-5, 2e-4, 1e-7)
 DOUBLE = (1e-12, 1e-10, 2e-16)
+# masking is an integral there, taken by a rule of stated error
+COARSE = {"student_t": (5e-8, 1e-5, 2e-16)}
 
 
 def test_oracle_knows_every_model_but_the_sum():
     assert set(ORACLE) == set(MODELS) - {"sum"}
+
+
+@pytest.mark.parametrize("name", SLOW)
+def test_what_is_recorded_is_what_the_oracle_says(name):
+    (chosen, wi, wo), *_ = cases(name)
+    with mpmath.workdps(25):
+        parameters = {n: mpmath.mpf(float(x)) for n, x in chosen.items()}
+        again = reflectance(ORACLE[name], parameters, *map(mpmath.matrix, (wi, wo)))
+    assert np.isclose(float(again), recorded(name)[0].value, rtol=1e-14)
 
 
 @every_model
@@ -32,9 +47,10 @@ def test_value_and_derivatives_agree_with_the_oracle(name, double):
     with jax.enable_x64(double):
         found = evaluate(name, cases(name), jnp.float64 if double else jnp.float32)
     wrong = []
-    for case, ours in zip(cases(name), found, strict=True):
-        wrong += check(name, case, ours, DOUBLE if double else SINGLE)
-    assert not wrong, "\n".join(wrong)
+    for case, exact, ours in zip(cases(name), truths(name), found, strict=True):
+        tolerance = COARSE.get(name, DOUBLE) if double else SINGLE
+        wrong += check(name, case, exact, ours, tolerance)
+    assert not wrong, "\n".join(wrong[:10])
 
 
 def evaluate(name, pairs, dtype):
@@ -70,12 +86,18 @@ def tangential(gradient, w):
     return gradient - w * (gradient @ w) / (w @ w)
 
 
-def check(name, case, ours, tolerance):
+@functools.cache
+def truths(name):
+    if name in SLOW:
+        return recorded(name)
+    return [truth(ORACLE[name], *case) for case in cases(name)]
+
+
+def check(name, case, exact, ours, tolerance):
     """Sentences about each number that is off by more than rounding explains."""
     chosen, wi, wo = case
-    exact = truth(ORACLE[name], chosen, wi, wo)
-    wrong = compare(ours, exact, tolerance, spread=None)
-    if wrong:
+    wrong = compare(chosen, ours, exact, tolerance, spread=None)
+    if wrong and name not in SLOW:
         shaken = [
             truth(
                 ORACLE[name],
@@ -85,12 +107,12 @@ def check(name, case, ours, tolerance):
             )
             for signs in ((1, -1, 1), (-1, 1, 1), (1, 1, -1), (-1, 1, -1))
         ]
-        wrong = compare(ours, exact, tolerance, spread=shaken)
+        wrong = compare(chosen, ours, exact, tolerance, spread=shaken)
     where = ", ".join(f"{n}={x:.9g}" for n, x in chosen.items())
     return [f"{name}({where}) at {wi}, {wo}: {text}" for text in wrong]
 
 
-def compare(ours, exact, tolerance, spread):
+def compare(chosen, ours, exact, tolerance, spread):
     value, by, to_wi, to_wo = ours
     shaken = spread or []
     background = tolerance[2] * (1 + 10 * abs(exact.value))
@@ -108,7 +130,9 @@ def compare(ours, exact, tolerance, spread):
     wrong = off("value", value, exact.value, [x.value for x in shaken], tolerance[0])
     for name, right in exact.parameters.items():
         others = [x.parameters[name] for x in shaken]
-        wrong += off(f"d/d{name}", by[name], right, others, tolerance[1])
+        # a rough surface looks the same at all wavelengths: what cancels must be given
+        scale = (0.1, 1.0)[name == "wavelengths"] * exact.value / (chosen[name] or 1)
+        wrong += off(f"d/d{name}", by[name], right, others, tolerance[1], abs(scale))
     for label, found in (("wi", to_wi), ("wo", to_wo)):
         rights = getattr(exact, label)
         scale = max(abs(x or 0) for x in rights)

@@ -1,8 +1,9 @@
 """Every model a second time: textbook formulas with angles, in many digits.
 
 Written from the papers and independent of the package: no code is shared, no
-trigonometry is avoided, nothing is rearranged. A hundred digits make that safe; in single
-precision these forms lose their values where `tests/models/test_oracle.py` looks.
+trigonometry is avoided, nothing is rearranged. A hundred digits make that safe; in
+single precision these forms lose their values where `tests/models/test_oracle.py`
+looks.
 
     directions      angles, half vectors
     diffuse         Lambert, Oren-Nayar, EON
@@ -30,8 +31,7 @@ from tests.oracle.microfacet import (
     ggx_lobe,
     student_t,
 )
-
-# from tests.oracle.multiscatter import ggx_multiscatter
+from tests.oracle.multiscatter import ggx_multiscatter
 from tests.oracle.phong import (
     ashikhmin_shirley,
     banks,
@@ -44,7 +44,7 @@ from tests.oracle.phong import (
     ward_bounded,
     ward_duer,
 )
-# from tests.oracle.wave import he
+from tests.oracle.wave import he
 
 ORACLE = {
     model.__name__: model
@@ -63,8 +63,8 @@ ORACLE = {
         ggx,
         ggx_anisotropic,
         ggx_lobe,
-        #        ggx_multiscatter,
-        #        he,
+        ggx_multiscatter,
+        he,
         lafortune,
         lambert,
         oren_nayar,

@@ -1,14 +1,16 @@
 """He, Torrance, Sillion and Greenberg 1991, for unpolarised light."""
 
+import functools
+
 from mpmath import (
     cos,
     cot,
     erfc,
     exp,
-    factorial,
     inf,
     lambertw,
     log,
+    loggamma,
     mp,
     mpf,
     pi,
@@ -52,7 +54,7 @@ def geometry(wi, wo):
 
 
 def shadowing(w, sigma0, tau):
-    """One factor of S, eq. 23 to 25, with the exponential of the errata."""
+    """One factor of S, eq. 24 and 25, with the exponential of the errata."""
     theta, _ = polar(w)
     if theta == 0:
         return mpf(1)
@@ -64,7 +66,7 @@ def shadowing(w, sigma0, tau):
 
 
 def effective_sigma(wi, wo, sigma0, tau):
-    """Roughness that is lit and seen, eq. 80 and 81."""
+    """Roughness that is lit and seen, eq. 80 to 83."""
 
     def rise(w):
         theta, _ = polar(w)
@@ -75,21 +77,33 @@ def effective_sigma(wi, wo, sigma0, tau):
     return sigma0 / sqrt(1 + lambertw(f**2).real)
 
 
+@functools.cache
+def log_factorial(m):
+    return loggamma(m + 1)
+
+
 def series(g, c):
-    """Sum over m of ``g^m e^-g / (m! m) exp(-c / m)``, eq. 78."""
+    """Sum over m of ``g^m e^-g / (m! m) exp(-c / m)``, eq. 78.
+
+    Where the terms are as smooth as a Gaussian of a width of many orders, one order in
+    a quarter of that width is enough for a hundred digits (Poisson's summation formula:
+    the error is ``exp(-2 pi^2 16)``).
+    """
+
+    log_g = log(g)
 
     def summand(m):
-        return exp(m * log(g) - g - c / m) / (factorial(m) * m)
+        return exp(m * log_g - g - log_factorial(m) - c / m) / m
 
-    m = 1
-    while log(mpf(g) / (m + 1)) + c / (m * (m + 1)) > 0:
-        m = max(m + 1, int(m * 1.01))
-    total, peak, tiny = mpf(0), summand(m), mpf(10) ** (-mp.dps - 3)
-    for step in (1, -1):
-        at = m if step > 0 else m - 1
-        while at >= 1 and (term := summand(at)) > tiny * peak:
-            total += term
-            at += step
+    peak = max(1, int(g * exp(lambertw(2 * c / g**2).real / 2)))
+    width = sqrt(peak / (1 + 2 * mpf(c) / peak**2))
+    step = max(1, int(width / 4))
+    total, tiny = mpf(0), summand(peak) * mpf(10) ** (-mp.dps - 3)
+    for direction in (1, -1):
+        m = peak if direction > 0 else peak - step
+        while m >= 1 and (term := summand(m)) > tiny:
+            total += step * term
+            m += direction * step
     return total
 
 
@@ -101,7 +115,7 @@ def phase(wi, wo, sigma0, tau, wavelength):
 
 
 def he(wi, wo, sigma0, tau, eta, k, diffuse, wavelengths):
-    """Directional diffuse and uniform diffuse reflection, eq. 70 to 82."""
+    """Directional diffuse and uniform diffuse reflection."""
     h = tuple(a + b for a, b in zip(wi, wo, strict=True))
     g = phase(wi, wo, sigma0, tau, wavelengths)
     c = (pi * tau / wavelengths) ** 2 * (h[0] ** 2 + h[1] ** 2)
@@ -114,7 +128,7 @@ def he(wi, wo, sigma0, tau, eta, k, diffuse, wavelengths):
 
 
 def specular_reflectance(wi, sigma0, tau, eta, k, wavelengths):
-    """Strength of the ideal reflection, eq. 71 to 73."""
+    """Strength of the ideal reflection."""
     g = phase(wi, mirror(wi), sigma0, tau, wavelengths)
     s = shadowing(wi, sigma0, tau) ** 2
     return conductor(cos(polar(wi)[0]), eta, k) * exp(-g) * s
