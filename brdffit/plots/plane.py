@@ -64,11 +64,13 @@ def planes(data: Measurement | Samples) -> list[Plane]:
     samples = as_samples(data)
     if samples.value is None or samples.wi.shape[1] != 1:
         return []
-    valid = np.isfinite(samples.f_r) & (np.asarray(samples.wi)[:, 0, 2:] > 0)
+    masked = np.zeros(samples.value.shape, bool)
     if samples.mask is not None:
-        valid &= np.asarray(samples.mask)
-    value = np.where(valid, np.asarray(samples.value), np.nan)
-    samples = dataclasses.replace(samples, value=value).take(valid.any(axis=1))
+        masked = ~np.asarray(samples.mask)
+    below = np.asarray(samples.wi)[:, 0, 2:] <= 0
+    value = np.where(masked | below, np.nan, np.asarray(samples.value))
+    samples = dataclasses.replace(samples, value=value)
+    samples = samples.take(np.isfinite(samples.f_r).any(axis=1))
     if samples.pixels is not None:
         found = [great_circle(samples, f) for f in range(samples.pixels.shape[0])]
     else:
