@@ -70,7 +70,7 @@ def planes(data: Measurement | Samples) -> list[Plane]:
     below = np.asarray(samples.wi)[:, 0, 2:] <= 0
     value = np.where(masked | below, np.nan, np.asarray(samples.value))
     samples = dataclasses.replace(samples, value=value)
-    samples = samples.take(np.isfinite(samples.f_r).any(axis=1))
+    samples = samples.take(np.flatnonzero(np.isfinite(samples.f_r).any(axis=1)))
     if samples.pixels is not None:
         found = [great_circle(samples, f) for f in range(samples.pixels.shape[0])]
     else:
