@@ -49,7 +49,7 @@ class Principled(AbstractBRDF):
     )
     metallic: Scalar = parameter(0.0, bounds=(0.0, 1.0), typical=(0.0, 1.0), symbol="m")
     roughness: Scalar = parameter(
-        0.5, bounds=(0.0, 1.0), typical=(0.0, 1.0), symbol="r"
+        0.5, bounds=(0.0, 1.0), typical=(0.15, 0.9), symbol="r"
     )
     specular: Scalar = parameter(0.5, bounds=(0.0, 1.0), typical=(0.0, 1.0), symbol="p")
     sheen: Scalar = parameter(0.0, bounds=(0.0, 1.0), typical=(0.0, 1.0), symbol="s")
