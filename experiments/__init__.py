@@ -4,6 +4,7 @@
     million_pairs      is anything not finite among a million random pairs?
     original_phong     when does the original Phong model give wrong results?
     metal_highlight    how does a metal's highlight end, with Beckmann and with GGX?
+    resamplings        how far do fits differ between two resamplings of one run?
     anisotropy         which way does a field of tangents stretch a highlight?
 
 Beside the experiments stand what some of them share: `record` writes results,
