@@ -4,14 +4,20 @@ import dataclasses
 import json
 import math
 import os
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 
+from brdffit.albedo import directional_albedo
 from brdffit.catalogue import description, from_description
 from brdffit.files import replacing
 from brdffit.models import AbstractBRDF
+
+PAIRS = 1000  # of directions, on which reciprocity is checked
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,6 +86,33 @@ class FitResult:
     seconds: float
     data: str
     channels: tuple[str, ...]
+
+    @cached_property
+    def albedo(self) -> np.ndarray:
+        """Directional albedo of the fitted BRDF for light along the normal.
+
+        One value per channel, computed when first asked for.
+        """
+        normal = jnp.array([0.0, 0.0, 1.0])
+        return np.asarray(directional_albedo(self.brdf, normal))
+
+    @cached_property
+    def reciprocity(self) -> float:
+        """Largest relative change of the fitted BRDF when light and viewer swap.
+
+        Over `PAIRS` pairs of directions spread over the hemisphere; 0 for a reciprocal
+        model up to rounding. Computed when first asked for.
+        """
+        z, turn = np.random.default_rng(0).uniform(0.05, 1, (2, 2, PAIRS))
+        radius, phi = np.sqrt(1 - z * z), 2 * np.pi * turn
+        w = np.stack([radius * np.cos(phi), radius * np.sin(phi), z], axis=-1)
+        wi, wo = jnp.asarray(w, jnp.float32)
+        there, back = (
+            np.asarray(jax.jit(jax.vmap(self.brdf))(*pair))
+            for pair in ((wi, wo), (wo, wi))
+        )
+        larger = np.maximum(np.maximum(there, back), np.finfo(np.float32).tiny)
+        return float(np.max(np.abs(there - back) / larger))
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the model object, in types that JSON knows."""

@@ -170,6 +170,15 @@ def test_a_parameter_without_effect_is_reported():
     np.testing.assert_allclose(result.parameters["diffuse"], [0.8, 0.5, 0.2], rtol=1e-5)
 
 
+def test_the_result_knows_the_albedo_and_reciprocity_of_its_brdf():
+    matte = brdffit.fit("lambert", goniometer("lambert", albedo=[0.8, 0.5, 0.2]))
+    np.testing.assert_allclose(matte.albedo, [0.8, 0.5, 0.2], rtol=1e-4)
+    assert matte.reciprocity < 1e-6
+    truth = TRUTHS["phong_original"]
+    one_sided = brdffit.fit("phong_original", goniometer("phong_original", **truth))
+    assert one_sided.reciprocity > 0.1
+
+
 def test_the_result_comes_back_from_its_file(measurement, tmp_path):
     result = brdffit.fit("ggx", measurement, residual="log")
     result.save(tmp_path / "result.json")
