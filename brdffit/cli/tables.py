@@ -10,9 +10,10 @@ from rich.measure import Measurement
 from rich.table import Table
 
 from brdffit.fit import FitResult
-from brdffit.fit.select import Comparison, Entry
+from brdffit.fit.select import Comparison
 from brdffit.parameters import parameters
 
+WORDY = ("parameters", "what it is")  # columns of words, which may take several lines
 LOST = "undetermined"
 MARKS = {"at bound": "{} *", LOST: "{} ?"}
 DIGITS = 6  # most significant digits of a value
@@ -78,42 +79,30 @@ def residual_table(result: FitResult) -> Table:
 
 
 def ranking_table(comparison: Comparison) -> Table:
-    """The ranking, the best model first."""
-    best = min(entry.result.aicc for entry in comparison.entries)
+    """The ranking, the best model first; models that tie with it are marked."""
+    entries = comparison.entries
+    lowest = min(entry.result.aicc for entry in entries)
+    several = sum(entry.tied for entry in entries) > 1
     known = comparison.best.chi_square is not None
     table = new_table(
-        *("", "model", "held-out error", "rms", "AICc", "above best"),
-        *(["chi-square per value"] if known else []),
-        *("free numbers", "seconds", "remarks"),
+        *("", "model", "", "held-out\nerror", "rms, all\ndata", "AICc above\nthe best"),
+        *(["chi-square\nper value"] if known else []),
+        *("free\nnumbers", "seconds"),
     )
-    for place, entry in enumerate(comparison.entries, start=1):
+    for place, entry in enumerate(entries, start=1):
         result = entry.result
         table.add_row(
             str(place),
             result.model,
+            "tied" if several and entry.tied else "",
             f"{entry.held_out:#.4g}",
             f"{result.rms[comparison.residual]:#.4g}",
-            f"{result.aicc:,.1f}",
-            f"{result.aicc - best:,.1f}",
+            f"{result.aicc - lowest:.4g}",
             *([f"{(result.chi_square or 0) / result.count:#.4g}"] if known else []),
             str(len(result.labels)),
             f"{result.seconds:.1f}",
-            "; ".join(remarks(entry, best=place == 1)),
         )
     return table
-
-
-def remarks(entry: Entry, *, best: bool) -> Iterator[str]:
-    """What to know about one model beside its numbers."""
-    result = entry.result
-    if entry.tied and not best:
-        yield "tied with the best"
-    if not result.converged:
-        yield "not converged"
-    if result.at_bound:
-        yield f"at bound: {', '.join(result.at_bound)}"
-    if result.undetermined:
-        yield f"undetermined: {', '.join(result.undetermined)}"
 
 
 def side_by_side(comparison: Comparison, console: Console) -> Iterator[Table]:
@@ -151,10 +140,10 @@ def _width(cells, models: list[str], console: Console) -> int:
 
 
 def new_table(*headings: str) -> Table:
-    """An empty table in the look of all tables; numbers stand right."""
-    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
+    """An empty table in the look of all tables; no number is ever broken."""
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
     for heading in headings:
-        table.add_column(heading, overflow="fold")
+        table.add_column(heading, no_wrap=heading not in WORDY)
     return table
 
 

@@ -19,7 +19,7 @@ def test_ranking_and_parameters_of_every_model_are_printed(run, chalk, tmp_path)
     status, out, err = run("compare", chalk, "--models", models, "--out", out_folder)
     words = " ".join(out.split())
     assert (status, err) == (0, "")
-    for heading in ("held-out error", "rms", "AICc", "seconds", "remarks"):
+    for heading in ("held-out", "rms, all", "AICc", "seconds"):
         assert heading in words
     assert "1 lambert" in words or "1 oren_nayar" in words
     assert "parameter" in words
