@@ -26,6 +26,8 @@ SINGLE = (2e-5, 2e-4, 1e-7)
 DOUBLE = (1e-12, 1e-10, 2e-16)
 # masking is an integral there, taken by a rule of stated error
 COARSE = {"student_t": (5e-8, 1e-5, 2e-16)}
+# light of several reflections is smooth: what is sensitive is the lobe of the first
+SENSITIVE = {"ggx_multiscatter": "ggx"}
 
 
 def test_oracle_knows_every_model_but_the_sum():
@@ -96,53 +98,64 @@ def truths(name):
 def check(name, case, exact, ours, tolerance):
     """Sentences about each number that is off by more than rounding explains."""
     chosen, wi, wo = case
-    wrong = compare(chosen, ours, exact, tolerance, spread=None)
-    if wrong and name not in SLOW:
+    wrong = compare(chosen, ours, exact, tolerance, shaken=[])
+    if wrong:
+        model = ORACLE[SENSITIVE.get(name, name)]
+        steady = truth(model, *case) if name in SENSITIVE else exact
         shaken = [
-            truth(
-                ORACLE[name],
-                chosen,
-                wi.astype(float) * (1 + tolerance[2] * np.array(signs)),
-                wo.astype(float) * (1 - tolerance[2] * np.array(signs)),
+            (
+                steady,
+                truth(
+                    model,
+                    chosen,
+                    wi.astype(float) * (1 + tolerance[2] * np.array(signs)),
+                    wo.astype(float) * (1 - tolerance[2] * np.array(signs)),
+                ),
             )
             for signs in ((1, -1, 1), (-1, 1, 1), (1, 1, -1), (-1, 1, -1))
         ]
-        wrong = compare(chosen, ours, exact, tolerance, spread=shaken)
+        wrong = compare(chosen, ours, exact, tolerance, shaken)
     where = ", ".join(f"{n}={x:.9g}" for n, x in chosen.items())
     return [f"{name}({where}) at {wi}, {wo}: {text}" for text in wrong]
 
 
-def compare(chosen, ours, exact, tolerance, spread):
+def compare(chosen, ours, exact, tolerance, shaken):
     value, by, to_wi, to_wo = ours
-    shaken = spread or []
     background = tolerance[2] * (1 + 10 * abs(exact.value))
     if abs(exact.value) > 1e37:
         return []
 
-    def off(label, found, right, others, relative, scale=0.0):
-        if right is None or any(x is None for x in others) or abs(right) > 1e37:
+    def off(label, found, right, pick, relative, scale=0.0):
+        moved = [(pick(steady), pick(other)) for steady, other in shaken]
+        kink = any(x is None for pair in moved for x in pair)
+        if right is None or kink or abs(right) > 1e37:
             return []
-        loose = 20 * max((abs(x - right) for x in others), default=0.0)
+        loose = 20 * max((abs(x - y) for x, y in moved), default=0.0)
         allowed = relative * (abs(right) + scale) + loose + background
         good = np.isfinite(found) and abs(found - right) <= allowed
         return [] if good else [f"{label} is {found:.9g}, not {right:.9g}"]
 
-    wrong = off("value", value, exact.value, [x.value for x in shaken], tolerance[0])
+    wrong = off("value", value, exact.value, lambda x: x.value, tolerance[0])
     for name, right in exact.parameters.items():
-        others = [x.parameters[name] for x in shaken]
         # a rough surface looks the same at all wavelengths: what cancels must be given
         scale = (0.1, 1.0)[name == "wavelengths"] * exact.value / (chosen[name] or 1)
-        wrong += off(f"d/d{name}", by[name], right, others, tolerance[1], abs(scale))
+        wrong += off(
+            f"d/d{name}",
+            by[name],
+            right,
+            lambda x, name=name: x.parameters[name],
+            tolerance[1],
+            abs(scale),
+        )
     for label, found in (("wi", to_wi), ("wo", to_wo)):
         rights = getattr(exact, label)
         scale = max(abs(x or 0) for x in rights)
         for axis, right in enumerate(rights):
-            others = [getattr(x, label)[axis] for x in shaken]
             wrong += off(
                 f"gradient by {label}[{axis}]",
                 found[axis],
                 right,
-                others,
+                lambda x, label=label, axis=axis: getattr(x, label)[axis],
                 tolerance[1],
                 scale,
             )
