@@ -22,9 +22,10 @@ def output() -> Console:
     )
 
 
-def print_line(sentence: str) -> None:
-    """One sentence on standard output."""
-    output().print(sentence)
+def print_line(sentence: str = "") -> None:
+    """One sentence on standard output, in several lines on a terminal only."""
+    console = output()
+    console.print(sentence, soft_wrap=not console.is_terminal)
 
 
 def print_written(written: Sequence[Path]) -> None:
