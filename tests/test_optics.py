@@ -86,7 +86,8 @@ def test_a_formula_that_is_not_known_is_refused():
 @pytest.mark.parametrize("metal", ["Al", "Cr", "Ni", "Ag"])
 @pytest.mark.parametrize("angle", [0.0, 60.0, 80.0])
 def test_rgb_index_reflects_the_colour_that_the_spectrum_gives(metal, angle):
-    colour = pytest.importorskip("colour")
+    import colour
+
     wavelengths = np.arange(360, 781, 5)
     index = optics.refractive_index(metal, wavelengths / 1000)
     with jax.enable_x64(True):

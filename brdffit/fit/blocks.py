@@ -15,6 +15,7 @@ from brdffit.samples import Samples
 from brdffit.types import AnyArray
 
 SIZE = 2048  # samples in a block: its rows fit into the second-level cache
+HARMLESS = (0.6, 0.0, 0.8)  # direction of places that hold no sample
 
 
 class Blocks(eqx.Module):
@@ -75,7 +76,9 @@ def blocks(
     rows = np.flatnonzero(use.any(axis=1))
     samples, use = samples.take(rows), use[rows]
     value = np.where(use, np.asarray(samples.value), 1).astype(np.float64)
-    target, slope = _transformed(residual, samples, value)
+    y = jnp.asarray(value)
+    carried = jax.jvp(residual.on(samples), (y,), (jnp.ones_like(y),))
+    target, slope = map(np.asarray, carried)
     base = use.astype(float)
     if samples.solid_angle is not None:
         share = samples.solid_angle / samples.solid_angle.mean()
@@ -87,7 +90,7 @@ def blocks(
         scale = np.where(slope > 0, lean / np.where(slope > 0, slope, 1), 0)
 
     up = (samples.wi[..., 2] > 0) & (samples.wo[:, 2] > 0)[:, None]
-    wi = np.where(up[..., None], samples.wi, [0.6, 0.0, 0.8])
+    wi = np.where(up[..., None], samples.wi, HARMLESS)
     weight = np.where(up[..., None], samples.weight, 0)
 
     count, lights = len(samples), wi.shape[1]
@@ -101,11 +104,8 @@ def blocks(
         return np.moveaxis(padded.reshape(room, SIZE, *array.shape[1:]), 1, -1)
 
     def lay_directions(w):
-        padded = np.tile(
-            np.array([0.6, 0.0, 0.8], dtype), (room * SIZE, *w.shape[1:-1], 1)
-        )
-        padded[:count] = w
-        return np.moveaxis(padded.reshape(room, SIZE, *w.shape[1:]), (1, -1), (-1, 1))
+        """The same with the components next to the blocks."""
+        return np.moveaxis(lay(w, HARMLESS), -2, 1)
 
     return Blocks(
         wi=lay_directions(wi),
@@ -115,24 +115,11 @@ def blocks(
         target=lay(target, 0),
         scale=lay(_once(scale), 0),
         lean=lay(_once(lean), 0),
-        cos_i=lay(samples.cosine, 0.8),
-        cos_o=lay(samples.wo[:, 2], 0.8),
+        cos_i=lay(samples.cosine, HARMLESS[2]),
+        cos_o=lay(samples.wo[:, 2], HARMLESS[2]),
         count=np.asarray(number, np.int32),
         known_sigma=samples.sigma is not None,
     )
-
-
-def _transformed(residual: Residual, samples: Samples, value: np.ndarray):
-    """Values after the transform, and its slope there."""
-    cosine, wo = (jnp.asarray(a, value.dtype) for a in (samples.cosine, samples.wo))
-    cosines = cosine[:, None], wo[:, 2:]
-    y = jnp.asarray(value)
-
-    def transform(value):
-        return residual.transform(value, *cosines)
-
-    target, slope = jax.jvp(transform, (y,), (jnp.ones_like(y),))
-    return np.asarray(target), np.asarray(slope)
 
 
 def _once(array: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ import optimistix as optx
 
 from brdffit.compiled import compiled
 from brdffit.fit import structure
+from brdffit.fit.basis import Problem
 from brdffit.fit.residual import RESIDUALS
 from brdffit.fit.search import Search
 from brdffit.fit.solve import sentence
@@ -22,7 +23,7 @@ NEARBY = 0.02  # distance from a bound within which to try whether it serves as 
 
 
 def examine(
-    problem: structure.Problem,
+    problem: Problem,
     found: Search,
     held: Mapping[int, float],
     count: int,
@@ -98,7 +99,7 @@ def examine(
     }
 
 
-def _settled(problem: structure.Problem, x: np.ndarray):
+def _settled(problem: Problem, x: np.ndarray):
     """The solution, moved onto each nearby bound that costs nothing.
 
     Where a parameter enters as a square, the slope of the cost vanishes at its bound 0
@@ -139,7 +140,7 @@ def _error_of_a_square(problem, x, place, equations, variance) -> float:
 
 
 @compiled
-def _at(problem: structure.Problem, x):
+def _at(problem: Problem, x):
     """Normal equations, costs, values and their slopes at one point."""
     places = tuple(range(x.shape[0]))
 

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from brdffit.catalogue import from_name
-from brdffit.fit import structure
+from brdffit.fit.basis import Problem
 from brdffit.fit.blocks import blocks, usable
 from brdffit.fit.examine import examine
 from brdffit.fit.residual import RESIDUALS, Residual, cosine_weighted, log
@@ -87,8 +87,8 @@ def fit(
         held = _held(layout, fixed or {})
         x0 = _starts(layout, brdf, starts, held, given=not isinstance(model, str))
         problem = bounded_problem(layout, brdf, residual, held)
-        found = search(problem, samples, use, x0, precision, max_steps)
         exact = problem(blocks=blocks(samples, use, residual, np.dtype(np.float64)))
+        found = search(problem, exact, samples, use, x0, precision, max_steps)
         facts = examine(exact, found, held, int(use.sum()), samples.sigma is not None)
     return FitResult(
         brdf=_fitted(brdf, facts["parameters"]),
@@ -187,12 +187,12 @@ def bounded_problem(
     brdf: AbstractBRDF,
     residual: Residual,
     held: Mapping[int, float],
-) -> partial[structure.Problem]:
+) -> partial[Problem]:
     """A fit that lacks only its samples; the places ``held`` keep their values."""
     lower, upper = bounds(layout)
     lower[list(held)] = upper[list(held)] = _hold_at(layout, held)
     return partial(
-        structure.Problem,
+        Problem,
         channels=channel_models(brdf),
         lower=jnp.asarray(lower),
         upper=jnp.asarray(upper),

@@ -13,6 +13,7 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from brdffit import numerics
+from brdffit.samples import Samples
 
 Transform: TypeAlias = Callable[[Array, Array, Array], Array]
 
@@ -36,6 +37,11 @@ class Residual:
     affine: bool = False
     positive: bool = False
     label: str = ""
+
+    def on(self, samples: Samples) -> Callable[[Array], Array]:
+        """The transform of values ``(N, C)`` of these samples."""
+        cosines = jnp.asarray(samples.cosine)[:, None], jnp.asarray(samples.wo)[:, 2:]
+        return lambda value: self.transform(value, *cosines)
 
 
 def _plain(value: Array, cos_i: Array, cos_o: Array) -> Array:

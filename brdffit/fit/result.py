@@ -107,10 +107,8 @@ class FitResult:
         radius, phi = np.sqrt(1 - z * z), 2 * np.pi * turn
         w = np.stack([radius * np.cos(phi), radius * np.sin(phi), z], axis=-1)
         wi, wo = jnp.asarray(w, jnp.float32)
-        there, back = (
-            np.asarray(jax.jit(jax.vmap(self.brdf))(*pair))
-            for pair in ((wi, wo), (wo, wi))
-        )
+        f_r = jax.jit(jax.vmap(self.brdf))
+        there, back = np.asarray(f_r(wi, wo)), np.asarray(f_r(wo, wi))
         larger = np.maximum(np.maximum(there, back), np.finfo(np.float32).tiny)
         return float(np.max(np.abs(there - back) / larger))
 
@@ -145,7 +143,7 @@ def load_result(path: str | os.PathLike) -> FitResult:
         for name in ("labels", "channels"):
             fields[name] = tuple(fields[name])
         for name in ("aicc", "bic"):
-            fields[name] = _number(fields[name])
+            fields[name] = float(fields[name])
         return FitResult(brdf=brdf, **fields)
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise ValueError(
@@ -170,9 +168,5 @@ def _plain(value: Any) -> Any:
 
 def _array(value: Any) -> Any:
     if isinstance(value, list):
-        return np.array([_number(v) for v in value])
-    return _number(value)
-
-
-def _number(value: Any) -> float:
+        return np.array([float(v) for v in value])
     return float(value)

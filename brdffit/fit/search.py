@@ -11,6 +11,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from brdffit.compiled import compiled
 from brdffit.fit import structure
+from brdffit.fit.basis import Problem
 from brdffit.fit.blocks import blocks
 from brdffit.fit.solve import BoundedLevenbergMarquardt
 from brdffit.samples import Samples
@@ -58,7 +59,8 @@ class Search(eqx.Module):
 
 
 def search(
-    problem: partial[structure.Problem],
+    problem: partial[Problem],
+    exact: Problem,
     samples: Samples,
     use: Bool[np.ndarray, "sample channel"],
     starts: Float[np.ndarray, "start n"],
@@ -72,6 +74,7 @@ def search(
 
     Args:
         problem: Everything but the samples; called with ``blocks``.
+        exact: The same with all samples, in double precision.
         samples: What to explain.
         use: Which values count.
         starts: Starting points in solver coordinates.
@@ -89,7 +92,9 @@ def search(
         # always as many, so that one program serves: the best stands in for absent ones
         finalists = np.resize(_distinct(met)[:FINALISTS], FINALISTS)
         starts = np.asarray(met.x)[finalists]
-    whole = problem(blocks=blocks(samples, use, residual, dtype))
+    whole = exact
+    if dtype != exact.blocks.wi.dtype:
+        whole = problem(blocks=blocks(samples, use, residual, dtype))
     final = solve(whole, jnp.asarray(starts), rtol=rtol, max_steps=max_steps)
     met = final if met is None else met
     near = np.asarray(met.cost) <= np.nanmin(met.cost) + _same(met)
@@ -137,9 +142,7 @@ def _distinct(met: Minima) -> np.ndarray:
     return order[new & np.isfinite(cost[order])]
 
 
-def _solve(
-    problem: structure.Problem, starts: Array, rtol: float, max_steps: int
-) -> Minima:
+def _solve(problem: Problem, starts: Array, rtol: float, max_steps: int) -> Minima:
     """Solve from every start, one after the other in one program.
 
     Each start takes the steps that it needs and no more; batched, all would take those

@@ -7,18 +7,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 
 from brdffit.files import replacing
 from brdffit.fit.blocks import usable
 from brdffit.fit.fit import default_residual, fit
+from brdffit.fit.misfit import misfit
 from brdffit.fit.residual import Residual
 from brdffit.fit.result import FitResult
 from brdffit.models import MODELS, AbstractBRDF
 from brdffit.parameters import registry_name
-from brdffit.render.shading import shade
 from brdffit.samples import Measurement, Samples, as_samples
 
 HELD_OUT = 0.2  # share of the directions that a fit never sees
@@ -121,8 +119,7 @@ def compare(
     """
     samples = as_samples(data)
     chosen = default_residual(data, residual)
-    use = usable(samples, chosen)
-    rows = np.flatnonzero(use.any(axis=1))
+    rows = np.flatnonzero(usable(samples, chosen).any(axis=1))
     if len(rows) < 5:
         raise ValueError(
             f"Data `{samples.name}` must have at least 5 usable directions to hold "
@@ -137,7 +134,8 @@ def compare(
             on_model(model if isinstance(model, str) else registry_name(model))
         result = fit(model, samples, **options)
         blind = fit(model, samples.take(seen), **options)
-        squares = _squares(blind.brdf, samples.take(unseen), use[unseen], chosen)
+        errors = misfit(blind.brdf, samples.take(unseen), chosen)
+        squares = np.nanmean(errors**2, axis=1)  # of each direction, over its channels
         fitted.append((result, squares))
     fitted.sort(key=lambda pair: float(np.mean(pair[1])))
     best = fitted[0][1]
@@ -158,17 +156,6 @@ def split(rows: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray]:
     shuffled = np.random.default_rng(seed).permutation(rows)
     unseen, seen = np.split(shuffled, [max(1, round(HELD_OUT * len(rows)))])
     return np.sort(seen), np.sort(unseen)
-
-
-def _squares(brdf, samples: Samples, use: np.ndarray, residual: Residual) -> np.ndarray:
-    """Mean square of the residual of each direction, over its usable channels."""
-    cosines = jnp.asarray(samples.cosine)[:, None], jnp.asarray(samples.wo)[:, 2:]
-    value = jnp.asarray(np.where(use, np.asarray(samples.value), 1))
-    predicted = jax.jit(shade)(brdf, samples)
-    error = residual.transform(predicted, *cosines) - residual.transform(
-        value, *cosines
-    )
-    return np.sum(np.where(use, np.asarray(error) ** 2, 0), axis=1) / use.sum(axis=1)
 
 
 def _tied(squares: np.ndarray, best: np.ndarray) -> bool:

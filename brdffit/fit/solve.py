@@ -19,9 +19,7 @@ from brdffit.fit.quadratic import minimise_in_box
 from brdffit.fit.structure import NormalEquations
 
 FIRST_DAMPING = 1e-3
-LEAST_SCALED = (
-    1e-3  # damping of a parameter the residual hardly sees, beside the others
-)
+LEAST_SCALED = 1e-3  # damping, beside the others, of what the residual hardly sees
 BLIND_STEPS = 10  # steps judged by the gradient alone, after which to stop
 LEAST_GAIN = 1e-4  # share of the predicted decrease that makes a step worth taking
 
@@ -172,6 +170,6 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
         return done, result
 
     def postprocess(self, fn, y, aux, args, options, state: State, tags, result):
-        """Hand on the equations at the solution."""
-        del fn, args, options, tags, result
-        return y, aux, {"equations": state.equations}
+        """Hand on the solution; its equations are in the state."""
+        del fn, args, options, state, tags, result
+        return y, aux, {}

@@ -2,19 +2,16 @@
 
 from collections.abc import Mapping
 
-import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from brdffit.fit import RESIDUALS, FitResult, Residual
-from brdffit.fit.blocks import usable
-from brdffit.models import AbstractBRDF
+from brdffit.fit import RESIDUALS, FitResult
+from brdffit.fit.misfit import misfit
 from brdffit.names import look_up
 from brdffit.plots.plane import polar
 from brdffit.plots.style import COLOURS, MUTED, entitle, new_figure, styled
-from brdffit.render.shading import compiled_shade
 from brdffit.samples import Measurement, Samples, as_samples
 from brdffit.types import Values
 
@@ -42,7 +39,7 @@ def residuals_figure(
     samples = as_samples(data)
     shown = dict(list(results.items())[:MODELS])
     residual = look_up(RESIDUALS, next(iter(shown.values())).residual, "Residual")
-    errors = {n: residual_values(r.brdf, samples, residual) for n, r in shown.items()}
+    errors = {n: misfit(r.brdf, samples, residual) for n, r in shown.items()}
     sizes = np.abs(np.concatenate(list(errors.values())))
     limit = float(np.nanpercentile(sizes, LARGEST)) or 1.0
 
@@ -126,20 +123,6 @@ def plot_residuals(
         axes.plot(middle, median, color=COLOURS[0], label="median", zorder=2.4)
     axes.axhline(0, color=MUTED, lw=0.8)
     axes.set_ylim(-limit, limit)
-
-
-def residual_values(
-    brdf: AbstractBRDF, samples: Samples, residual: Residual
-) -> np.ndarray:
-    """``T(fitted) - T(measured)``, shape ``(N, C)``, NaN where a value is not used."""
-    use = usable(samples, residual)
-    cosines = jnp.asarray(samples.cosine)[:, None], jnp.asarray(samples.wo)[:, 2:]
-    measured = jnp.asarray(np.where(use, np.asarray(samples.value), 1.0))
-    fitted = jnp.asarray(compiled_shade(brdf, samples))
-    error = residual.transform(fitted, *cosines) - residual.transform(
-        measured, *cosines
-    )
-    return np.where(use, np.asarray(error), np.nan)
 
 
 def sample_angles(samples: Samples) -> dict[str, np.ndarray]:

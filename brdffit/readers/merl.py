@@ -37,12 +37,7 @@ def load(path: Path | str) -> Measurement:
         OSError: The file cannot be read.
     """
     path = Path(path)
-    size = path.stat().st_size
-    if size != SIZE:
-        raise ValueError(
-            f"MERL file `{path}` must have {SIZE} bytes, but has {size}; it is "
-            f"{'cut off' if size < SIZE else 'of another kind'}."
-        )
+    validity.require_size(path, SIZE, "MERL")
     stored = np.fromfile(path, "<f8", offset=len(HEADER)).reshape(3, -1)
     stored *= np.array(SCALES)[:, None]
     wi, wo, solid_angle = half_difference.cells()

@@ -42,12 +42,7 @@ def load(path: Path | str) -> Measurement:
         OSError: The file cannot be read.
     """
     path = Path(path)
-    size = path.stat().st_size
-    if size != SIZE:
-        raise ValueError(
-            f"UTIA file `{path}` must have {SIZE} bytes, but has {size}; it is "
-            f"{'cut off' if size < SIZE else 'of another kind'}."
-        )
+    validity.require_size(path, SIZE, "UTIA")
     theta, phi = np.meshgrid(np.arange(6) * 15.0, np.arange(48) * 7.5, indexing="ij")
     grid = directions(np.deg2rad(theta.ravel()), np.deg2rad(phi.ravel()))
     return validity.measurement(

@@ -18,6 +18,21 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 HORIZON = 1e-6  # cosine; 90 degrees is 6e-17 after rounding, and is at the horizon
 
 
+def require_size(path: Path, expected: int, kind: str) -> None:
+    """Refuse a file of a format whose files all have the same size.
+
+    Raises:
+        ValueError: The file has another size.
+        OSError: The file cannot be read.
+    """
+    size = path.stat().st_size
+    if size != expected:
+        raise ValueError(
+            f"{kind} file `{path}` must have {expected} bytes, but has {size}; it is "
+            f"{'cut off' if size < expected else 'of another kind'}."
+        )
+
+
 def measurement(
     path: Path | str,
     wi: Vectors,

@@ -18,6 +18,7 @@ Two things Mitsuba does otherwise, on purpose of its authors:
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import mitsuba
 import numpy as np
 import pytest
 
@@ -31,8 +32,6 @@ from brdffit.models import (
     Principled,
     principled,
 )
-
-mitsuba = pytest.importorskip("mitsuba")
 
 ALPHAS = [0.05, 0.15, 0.4, 0.8]
 EACH = 500

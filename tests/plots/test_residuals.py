@@ -7,15 +7,16 @@ from matplotlib.figure import Figure
 import brdffit
 from brdffit import MODELS
 from brdffit.fit import RESIDUALS
+from brdffit.fit.misfit import misfit
 from brdffit.plots import plot_residuals, residuals_figure
-from brdffit.plots.residuals import residual_values, sample_angles
+from brdffit.plots.residuals import sample_angles
 from brdffit.samples import as_samples
 from tests.results import result_of
 
 
 @pytest.mark.parametrize("name", RESIDUALS)
 def test_the_truth_has_no_residual(name, goniometer, truth):
-    error = residual_values(truth, as_samples(goniometer), RESIDUALS[name])
+    error = misfit(truth, as_samples(goniometer), RESIDUALS[name])
     assert np.nanmax(np.abs(error)) < 1e-5
 
 
@@ -24,7 +25,7 @@ def test_a_model_that_is_twice_as_bright_is_off_by_ln_2(goniometer):
     data = dataclasses.replace(
         goniometer, f_r=np.full_like(goniometer.f_r, 0.1 / np.pi)
     )
-    error = residual_values(lambert, as_samples(data), RESIDUALS["log"])
+    error = misfit(lambert, as_samples(data), RESIDUALS["log"])
     np.testing.assert_allclose(error, np.log(2), rtol=1e-5)
 
 
@@ -32,7 +33,7 @@ def test_values_that_a_fit_does_not_use_have_no_residual(goniometer, truth):
     mask = np.ones(goniometer.f_r.shape, bool)
     mask[3, 1] = False
     masked = as_samples(dataclasses.replace(goniometer, mask=mask))
-    error = residual_values(truth, masked, RESIDUALS["plain"])
+    error = misfit(truth, masked, RESIDUALS["plain"])
     np.testing.assert_array_equal(np.isnan(error), ~mask)
 
 
@@ -79,7 +80,7 @@ def test_figure_says_how_much_lies_beyond_its_axis(goniometer, truth):
     spiked[0] *= 1000
     data = dataclasses.replace(goniometer, f_r=spiked)
     figure = residuals_figure(data, {"fit": result_of(truth)})
-    error = residual_values(truth, as_samples(data), RESIDUALS["log"])
+    error = misfit(truth, as_samples(data), RESIDUALS["log"])
     share = np.mean(np.abs(error) > figure.axes[0].get_ylim()[1])
     assert share > 0
     assert f"{share:.2%} of the values" in figure.axes[2].get_title(loc="right")

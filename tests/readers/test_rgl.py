@@ -1,3 +1,4 @@
+import mitsuba
 import numpy as np
 import pytest
 
@@ -95,7 +96,6 @@ def test_an_isotropic_material_looks_the_same_when_turned(tmp_path):
 
 @pytest.mark.parametrize(("azimuths", "parts"), [(5, 1), (5, 2), (4, 4)])
 def test_anisotropic_files_agree_with_mitsuba(azimuths, parts, tmp_path):
-    mitsuba = pytest.importorskip("mitsuba")
     mitsuba.set_variant("scalar_rgb")
     path = specimens.rgl(tmp_path, azimuths, parts=parts)
     plugin = mitsuba.load_dict({"type": "measured", "filename": str(path)})

@@ -1,0 +1,122 @@
+r"""Rows of a fit: what its linear parameters multiply, and how that changes.
+
+With the other parameters held, $f_r = C + \sum_j a_j B_j$ in the linear parameters
+$a_j$ of one channel. A pass over the samples evaluates the scalars $C$ and $B_j$ and
+their derivatives in the nonlinear parameters, once for all channels that share those.
+Derivatives are forward-mode and exact: a derivative along a parameter in which $f_r$ is
+affine *is* its basis function.
+"""
+
+from functools import partial
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from brdffit.fit.blocks import Blocks
+from brdffit.fit.residual import Residual
+from brdffit.fit.transforms import Layout, to_natural
+from brdffit.models import AbstractBRDF
+from brdffit.parameters import replace
+
+
+class Problem(eqx.Module):
+    """One fit: the model cut into channels, the samples, the residual, the bounds."""
+
+    channels: AbstractBRDF  # leaves with a leading channel axis
+    blocks: Blocks
+    lower: Float[Array, " n"]  # of all parameters, in solver coordinates
+    upper: Float[Array, " n"]
+    layout: Layout = eqx.field(static=True)
+    residual: Residual = eqx.field(static=True)
+
+    @property
+    def nonlinear_places(self) -> np.ndarray:
+        """Places of the nonlinear parameters in the vector of all."""
+        places = self.layout.places
+        return np.array([p for n in self.layout.nonlinear for p in places[n]], int)
+
+
+@partial(jax.jit, static_argnums=0)
+def _reflectance(layout: Layout, channel: AbstractBRDF, linear, natural, wi, wo):
+    """``f_r (light, place)`` of one channel; traced once, differentiated often."""
+    spectral = {name: known.spectral for name, known in layout.entries}
+    values = {
+        name: natural[i : i + 1] if spectral[name] else natural[i]
+        for i, name in enumerate(layout.nonlinear)
+    }
+    values |= {name: linear[i : i + 1] for i, name in enumerate(layout.linear)}
+    brdf = replace(channel, values)
+    over_places = jax.vmap(brdf.evaluate, in_axes=(1, 1))
+    return jax.vmap(over_places, in_axes=(1, None))(wi, wo)[..., 0]
+
+
+def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
+    """Rows ``C, B_1, ..`` (and their derivatives) of one channel, per light.
+
+    ``x`` are the solver coordinates of the nonlinear parameters that the channel sees,
+    in the order of the layout. Returns ``(rows, light, place)``: first the constant and
+    the basis functions, then the derivatives of all of them along each nonlinear
+    parameter in turn.
+    """
+    layout = problem.layout
+    places = tuple(layout.channel_places(layout.nonlinear)[0].tolist())
+    dtype = block.wi.dtype
+    zero = jnp.zeros(len(layout.linear), dtype)
+    each = jnp.eye(len(layout.linear), dtype=dtype)
+
+    def basis(x):
+        # cast after the map: bounds hold to the last digit of the data's precision
+        natural = to_natural(layout, x, places).astype(dtype) if places else zero[:0]
+
+        def reflectance(linear):
+            return _reflectance(layout, channel, linear, natural, block.wi, block.wo)
+
+        slopes = [jax.jvp(reflectance, (zero,), (e,))[1] for e in each]
+        return jnp.stack([reflectance(zero), *slopes])
+
+    if not derivatives or not places:
+        return basis(x)
+    along = jnp.eye(len(places), dtype=x.dtype)
+    slopes = [jax.jvp(basis, (x,), (e,))[1] for e in along]
+    return jnp.concatenate([basis(x), *slopes])
+
+
+def rows(problem: Problem, x, block, derivatives: bool):
+    """Rows of all channels, summed over lights: ``(channel or 1, rows, place)``."""
+    layout = problem.layout
+    seen = x[local(problem)]
+    if layout.separate:
+        per_light = jax.vmap(
+            lambda channel, x: _channel_rows(problem, channel, x, block, derivatives)
+        )(problem.channels, seen)
+    else:
+        first = jax.tree.map(lambda leaf: leaf[0], problem.channels)
+        per_light = _channel_rows(problem, first, seen[0], block, derivatives)[None]
+    weight = jnp.moveaxis(block.weight, 1, 0)  # channel or 1, light, place
+    return jnp.sum(per_light * weight[:, None], axis=2)
+
+
+def local(problem: Problem) -> np.ndarray:
+    """Index ``(channel, m)`` of each channel's nonlinear parameters among all."""
+    of_place = {place: i for i, place in enumerate(problem.nonlinear_places)}
+    seen = problem.layout.channel_places(problem.layout.nonlinear)
+    return np.vectorize(of_place.get, otypes=[int])(seen)
+
+
+def over_blocks(problem: Problem, add, start):
+    """Sum ``add(block)`` over the blocks that hold samples, in double precision."""
+    blocks = problem.blocks
+
+    def body(i, total):
+        def pick(array):
+            if array.ndim == 0:  # the count
+                return array
+            return jax.lax.dynamic_index_in_dim(array, i, keepdims=False)
+
+        part = add(jax.tree.map(pick, blocks))
+        return jax.tree.map(lambda t, p: t + p.astype(t.dtype), total, part)
+
+    return jax.lax.fori_loop(0, blocks.count, body, start)
