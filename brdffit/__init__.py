@@ -15,6 +15,7 @@ The package reads from top to bottom; a module imports only from lines above its
     scene                  camera, shapes, lights
     render                 geometry pass, shading, images
     readers, writers       one file format per file
+    survey                 what a file holds, before anything is fitted to it
     fit                    residual -> solver -> result
     plots                  one kind of figure per file
     cli                    the command line, one command per file

@@ -15,6 +15,7 @@ from cyclopts import App, CycloptsError, Parameter
 from brdffit.cli.compare import compare
 from brdffit.cli.demo import demo
 from brdffit.cli.fit import fit
+from brdffit.cli.info import info
 from brdffit.cli.models import models
 from brdffit.cli.render import render
 from brdffit.cli.simulate import simulate
@@ -35,7 +36,7 @@ app = App(
     help_format="plaintext",
     default_parameter=Parameter(negative=(), show_default=False),
 )
-for command in (demo, models, fit, compare, simulate, render):
+for command in (demo, models, info, fit, compare, simulate, render):
     app.command(command)
 
 

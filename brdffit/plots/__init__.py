@@ -1,6 +1,7 @@
 """Figures, one kind per file; each file draws into given axes and makes a figure."""
 
 from brdffit.plots.album import album as album
+from brdffit.plots.coverage import coverage_figure as coverage_figure
 from brdffit.plots.lobe import lobe_figure as lobe_figure, plot_lobe as plot_lobe
 from brdffit.plots.plane import Plane as Plane, planes as planes
 from brdffit.plots.ranking import (

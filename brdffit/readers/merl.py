@@ -19,6 +19,8 @@ DESCRIPTION = "MERL binary: isotropic material on half and difference angles"
 SUFFIXES = (".binary",)
 BEGINS = "with the integers 90, 90 and 180, of four bytes each"
 
+RECIPROCAL = True  # exchanged directions share a cell
+
 SCALES = (1.0 / 1500, 1.15 / 1500, 1.66 / 1500)
 HEADER = np.array(half_difference.SHAPE, "<i4").tobytes()
 SIZE = len(HEADER) + 3 * half_difference.COUNT * 8
