@@ -37,6 +37,18 @@ def bisector(wi: Direction, wo: Direction) -> Direction:
     return wi + wo
 
 
+def larger_cosine(wi: Direction, wo: Direction) -> Scalar:
+    """Cosine to the normal of the direction that is closer to it.
+
+    Where cosines are equal to the last digit, sines still tell, so that the derivative
+    is that by the right direction; by both in equal parts where sines are equal too.
+    """
+    (xi, yi, zi), (xo, yo, zo) = wi, wo
+    behind = (zi == zo) & (xi * xi + yi * yi > xo * xo + yo * yo)
+    ahead = (zi == zo) & (xi * xi + yi * yi < xo * xo + yo * yo)
+    return jnp.where(ahead, zi, jnp.where(behind, zo, jnp.maximum(zi, zo)))
+
+
 def tan_squared(w: Direction) -> Scalar:
     """Squared tangent of the angle to the normal; ``w`` may have any length."""
     x, y, z = w
@@ -63,8 +75,13 @@ def mirror(w: Direction) -> Direction:
     return jnp.stack([-x, -y, z])
 
 
+def mirror_cosine(wi: Direction, wo: Direction) -> Scalar:
+    """Cosine of the angle between ``wo`` and the mirror image of ``wi``."""
+    return dot(mirror(wi), wo)
+
+
 def mirror_deficit(wi: Direction, wo: Direction) -> Scalar:
-    """``1 - cos`` of the angle between ``wo`` and the mirror image of ``wi``.
+    """1 minus `mirror_cosine`.
 
     Half the squared distance of the two, which keeps its digits near the mirror
     direction, where a cosine has none left.

@@ -16,6 +16,7 @@ LOG1P_SERIES = tuple((-1) ** n / (n + 1) for n in reversed(range(11)))
 # of arctan(x) / x in powers of x^2, highest first
 ARCTAN_SERIES = tuple((-1) ** n / (2 * n + 1) for n in reversed(range(20)))
 
+SMALLEST_BASE = 1e-18  # of a power: the square of its inverse is still a number
 SQRT_PI = 1.7724538509055159
 
 
@@ -58,16 +59,18 @@ def pow(x: Real, exponent: Real) -> Real:
     return jnp.where(positive, power, 0.0)
 
 
-def pow_complement(deficit: Real, exponent: Real) -> Real:
-    """``(1 - deficit)**exponent``, and 0 where ``deficit >= 1``, exponent 0 included.
+def pow_near_one(x: Real, deficit: Real, exponent: Real) -> Real:
+    """``x**exponent``, and 0 where ``x <= 0``, exponent 0 included.
 
     A high power of a number close to 1 keeps all its digits when that number is given
-    by its distance from 1.
+    by its distance from 1 as well, ``deficit = 1 - x``. Far from 1 it is ``x`` that has
+    the digits.
     """
-    inside = deficit < 1
-    power = exponent * jnp.log1p(-jnp.where(inside, deficit, 0.0))
-    largest = 0.9 * jnp.log(jnp.finfo(deficit.dtype).max)
-    return jnp.where(inside, jnp.exp(jnp.minimum(power, largest)), 0.0)
+    positive, near = x > SMALLEST_BASE, jnp.abs(deficit) < 0.5
+    apart = jnp.log(jnp.where(positive & ~near, x, 1.0))
+    power = exponent * (apart + jnp.log1p(-jnp.where(near, deficit, 0.0)))
+    largest = 0.9 * jnp.log(jnp.finfo(x.dtype).max)
+    return jnp.where(positive, jnp.exp(jnp.minimum(power, largest)), 0.0)
 
 
 def log1p_ratio(x: Real) -> Real:

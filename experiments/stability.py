@@ -11,14 +11,11 @@ of the input directions does to the true one, and by more than 1e-7 of the value
 finite. `ggx_multiscatter`, whose oracle takes hours, is compared in float32 alone, with
 itself in float64; it and `student_t` have no printed formula.
 
-Printed formulas lose derivatives at the normal, at the mirror direction (an arc cosine
-of 1, an azimuth of nothing), on the horizon and with a power of 0; values of narrow
-lobes (1 - cos^2 in a few digits) and of grazing directions (an arc cosine near a right
-angle). Ours loses no value and nothing to infinity. A few derivatives remain off in
-float32, each a small difference of large terms: by the wavelength of `he`, which no fit
-moves; by `c_z` of `lafortune` at grazing directions with `c_x` or `c_y` beyond the
-typical range; by directions at a vanishing gradient of `phong_original` and
-`ashikhmin_shirley`.
+What is found is counted: by model in `table.csv`, by pair of directions in
+`directions.csv`, in a sentence in `run.toml`. Printed formulas lose derivatives at the
+normal, at the mirror direction (an arc cosine of 1, an azimuth of nothing), on the
+horizon and with a power of 0; values of narrow lobes (1 - cos^2 in a few digits) and of
+grazing directions (an arc cosine near a right angle). Ours loses none.
 """
 
 import itertools
@@ -56,6 +53,8 @@ MEANING = (
 )
 # each darker than the one before, in colour and in grey
 COLOURS = ("#f4f4f4", "#f0d458", "#e08a2e", "#a8325e", "#1b0c3a")
+FORMULAS = ("printed", "ours")
+TITLES = {"printed": "as printed", "ours": "as written here"}
 PARTS = ("value", "by_parameters", "by_directions")
 
 
@@ -201,7 +200,7 @@ def map_of(name, judged):
     """Cases of one model: parameters down, directions across."""
     rows, columns = list(settings(name)), list(directions())
     precisions = [p for p in ROUNDING if any(key[1] == p for key in judged)]
-    formulas = [f for f in ("printed", "ours") if any(key[0] == f for key in judged)]
+    formulas = [f for f in FORMULAS if any(key[0] == f for key in judged)]
     tall = 0.15 * len(rows) + 0.3
     figure = new_figure(2.4 + 3.4 * len(formulas), 2.2 + tall * len(precisions))
     grid = figure.subplots(len(precisions), len(formulas), squeeze=False)
@@ -255,41 +254,69 @@ def headline(name, judged):
     return f"{name} in float32: printed {before} of {of} cases wrong, ours {bad}"
 
 
+def by_direction(all_judged):
+    """Cases of all models at each pair of directions, and how many are wrong."""
+    rows = {}
+    for judged in all_judged.values():
+        for formula in FORMULAS:
+            if (formula, "float32") not in judged:
+                continue
+            worst = severity(judged[formula, "float32"])
+            for place, pair in enumerate(directions()):
+                here = worst[place :: len(directions())]
+                row = rows.setdefault(pair, {"wi, wo": pair})
+                for what, count in (
+                    ("cases", len(here)),
+                    ("value_wrong", int((here >= VALUE_OFF).sum())),
+                    ("only_derivative_wrong", int(((here > FINE) & (here < 3)).sum())),
+                ):
+                    key = f"{formula}_{what}"
+                    row[key] = row.get(key, 0) + count
+    return list(rows.values())
+
+
+def finding(all_judged):
+    """What all models together show in float32, as a sentence."""
+    said = []
+    for formula in FORMULAS:
+        key = formula, "float32"
+        every = [severity(v[key]) for v in all_judged.values() if key in v]
+        worst = np.concatenate(every) if every else np.zeros(1)
+        bad, of = int((worst > FINE).sum()), len(worst)
+        said.append(f"{formula} {bad:,} of {of:,} cases wrong ({100 * bad / of:.2g} %)")
+    return ", ".join(said)
+
+
 @styled
 def overview(all_judged):
     """Share of cases that go wrong in float32, for every model."""
     names = list(all_judged)[::-1]
     figure = new_figure(8.2, 1.6 + 0.25 * len(names))
-    left, right = figure.subplots(1, 2, sharey=True, sharex=True)
-    total = {}
-    for axes, formula in ((left, "printed"), (right, "ours")):
-        total[formula] = np.zeros(2, int)
+    both = figure.subplots(1, 2, sharey=True, sharex=True)
+    for axes, formula in zip(both, FORMULAS, strict=True):
         for y, name in enumerate(names):
             if (formula, "float32") not in all_judged[name]:
-                axes.text(0.5, y, "no closed formula", size=7, va="center")
+                axes.text(1, y, "no closed formula", size=7, va="center")
                 continue
             worst = severity(all_judged[name][formula, "float32"])
-            total[formula] += [(worst > FINE).sum(), len(worst)]
             start = 0.0
             for level in range(VALUE_LOST, FINE, -1):
                 share = 100 * np.mean(worst == level)
                 axes.barh(y, share, left=start, color=COLOURS[level], height=0.75)
                 start += share
-        bad, of = total[formula]
-        axes.set_title(f"{formula}: {bad:,} of {of:,} cases wrong")
-        axes.set_xlabel("share of hard cases (%)")
+            text = f"{(worst > FINE).sum()} of {len(worst)}"
+            axes.text(start + 1, y, text, size=7, va="center")
+        axes.set_title(TITLES[formula])
+        axes.set_xlabel("share of hard cases that are wrong (%)")
         axes.grid(visible=False, axis="y")
-    left.set_yticks(range(len(names)), names)
-    left.set_ylim(-0.6, len(names) - 0.4)
+    both[0].set_yticks(range(len(names)), names)
+    both[0].set_ylim(-0.6, len(names) - 0.4)
+    both[0].set_xlim(0, 100)
     handles = [
         Patch(facecolor=c, label=m) for c, m in zip(COLOURS, MEANING, strict=True)
     ]
     figure.legend(handles=handles[1:], loc="outside lower center", ncols=4, fontsize=8)
-    shares = {f: bad / of for f, (bad, of) in total.items() if of}
-    figure.suptitle(
-        "float32 at hard directions and parameters: "
-        + ", ".join(f"{f} {100 * share:.2g} % wrong" for f, share in shares.items())
-    )
+    figure.suptitle(f"float32: {finding(all_judged)}", size=10)
     return figure
 
 
@@ -304,7 +331,13 @@ def main(folder=RESULTS / "stability", names=None):
         print(headline(name, judged[name]), flush=True)
     record.figure(overview(judged))
     record.table([line(n, key, v) for n in names for key, v in judged[n].items()])
-    record.close(relative=RELATIVE, ratio=RATIO, background=BACKGROUND)
+    record.table(by_direction(judged), "directions")
+    record.close(
+        finding=f"float32: {finding(judged)}.",
+        relative=RELATIVE,
+        ratio=RATIO,
+        background=BACKGROUND,
+    )
 
 
 if __name__ == "__main__":

@@ -57,6 +57,8 @@ def test_dot_is_the_sum_of_products(pairs):
 def test_mirror_deficit_is_what_the_cosine_lacks_of_one(pairs):
     wi, wo = pairs
     cosine = np.sum(np.asarray(each(geometry.mirror)(wi), float) * wo, axis=1)
+    found = each(geometry.mirror_cosine)(wi, wo)
+    np.testing.assert_allclose(found, cosine, atol=3e-7)
     found = each(geometry.mirror_deficit)(wi, wo)
     np.testing.assert_allclose(found, 1 - cosine, atol=3e-7)
 
@@ -68,6 +70,20 @@ def test_mirror_deficit_keeps_its_digits_close_to_the_mirror_direction():
     found = float(geometry.mirror_deficit(wi, wo))
     # the angle itself is known to 1e-3 only: 1 - cosine would be 0 or 6e-8
     assert found == pytest.approx(angle**2 / 2, rel=3e-3)
+
+
+def test_larger_cosine_is_told_by_sines_where_cosines_are_equal():
+    """Derivatives by both heights: one is 1, or each is a half when all is equal."""
+    normal, tilted = jnp.array([0.0, 0.0, 1.0]), jnp.array([1e-4, 0.0, 1.0])
+    slanted = jnp.array([0.6, 0.0, 0.8])
+    by_height = jax.jit(jax.grad(geometry.larger_cosine, argnums=(0, 1)))
+    for pair, expected in [
+        ((normal, tilted), (1, 0)),
+        ((tilted, normal), (0, 1)),
+        ((tilted, tilted), (0.5, 0.5)),
+        ((slanted, normal), (0, 1)),
+    ]:
+        assert tuple(float(w[2]) for w in by_height(*pair)) == expected
 
 
 def test_direction_has_the_angles_it_was_given():

@@ -7,6 +7,7 @@ mirror image and a lobe.
 """
 
 import functools
+import math
 from collections.abc import Sequence
 
 import jax
@@ -20,6 +21,7 @@ STEPS = 6  # of Newton's method for W, from starts that make these enough in flo
 NODES = {np.dtype(np.float32): 68, np.dtype(np.float64): 168}
 SPREAD = {np.dtype(np.float32): 5.6, np.dtype(np.float64): 8.6}
 ARTANH_SERIES = tuple(1 / (2 * n + 3) for n in range(7))
+EXPM1_SERIES = tuple(1 / math.factorial(n + 2) for n in range(13))
 STIRLING_TERMS = {np.dtype(np.float32): 8, np.dtype(np.float64): 18}
 
 
@@ -89,10 +91,14 @@ def _lambert_w_jvp(primals, tangents):
 
 
 @jax.custom_jvp
-def scattering_series(g: Scalar, c: Scalar) -> Scalar:
-    r"""Share of light in all orders of scattering, those of high order rarer and wider.
+def scattering_lobe(g: Scalar, t: Scalar) -> Scalar:
+    r"""Light in all orders of scattering, those of high order rarer and wider.
 
-    $$\sum_{m=1}^\infty \frac{g^m e^{-g}}{m!\,m}\,e^{-c/m}$$
+    $$L = (1 + g) \sum_{m=1}^\infty \frac{g^m e^{-g}}{m!\,m}\,e^{-c/m},
+      \qquad c = (1 + g)\,t$$
+
+    $g e^{-t}$ on a smooth surface and $e^{-t}$ on a rough one, the Gaussian of its
+    slopes: scaled so, it hardly depends on $g$ where light has no wavelength.
 
     The largest term is at $m = g\,e^{W/2}$ with $W e^W = 2c/g^2$. Around it the terms
     fall like a Gaussian of known width. All orders within some widths are added where
@@ -104,23 +110,24 @@ def scattering_series(g: Scalar, c: Scalar) -> Scalar:
         The sum of X. He et al., SIGGRAPH 1991, eq. 78; its exponents as in C. Loader,
         "Fast and Accurate Computation of Binomial Probabilities", 2000.
     """
-    return _sums(g, c)[0]
+    return (1 + g) * _sums(g, t)[0]
 
 
-@scattering_series.defjvp
-def _scattering_series_jvp(primals, tangents):
+@scattering_lobe.defjvp
+def _scattering_lobe_jvp(primals, tangents):
     # by hand: each term of the derivative is one of the sum times a simple factor
-    (g, c), (dg, dc) = primals, tangents
-    total, by_g, by_c = _sums(g, c)
-    return total, by_g * dg + by_c * dc
+    (g, t), (dg, dt) = primals, tangents
+    total, by_g, by_t = _sums(g, t)
+    return (1 + g) * total, by_g * dg + by_t * (1 + g) * (1 + g) * dt
 
 
-def _sums(g: Scalar, c: Scalar) -> tuple[Scalar, Scalar, Scalar]:
-    """The series and its derivatives by ``g`` and ``c``, one order after another.
+def _sums(g: Scalar, t: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+    """The series, the derivative of the lobe by ``g``, that of the series by ``c``.
 
-    An array of all orders of all directions would not fit in a cache.
+    One order after another: an array of all orders of all directions would not fit in
+    a cache.
     """
-    dtype = g.dtype
+    dtype, c = g.dtype, (1 + g) * t
     g = jnp.maximum(g, jnp.finfo(dtype).tiny ** 0.5)
     low, step = _orders(g, c)
 
@@ -136,13 +143,45 @@ def _sums(g: Scalar, c: Scalar) -> tuple[Scalar, Scalar, Scalar]:
         )
         psi = u * _horner(stirling_series(dtype), 2 * u - 1)
         term = jnp.exp(-(m * deviance + c * u + psi)) * u * numerics.sqrt(u)
+        step_down, bend = _previous_order(u, c)
         total, by_g, by_c = sums
-        return total + term, by_g + term * ((m - g) / g), by_c - term * u
+        return total + term, by_g - term * m * (bend + step_down / g), by_c - term * u
 
     zero = jnp.zeros_like(g)
     sums = jax.lax.fori_loop(0, NODES[dtype], add, (zero, zero, zero))
     scale = step / np.sqrt(2 * np.pi).astype(dtype)
     return sums[0] * scale, sums[1] * scale, sums[2] * scale
+
+
+def _previous_order(u: Scalar, c: Scalar) -> tuple[Scalar, Scalar]:
+    r"""How ``h = exp(-c/m) / m`` changes from order ``m = 1/u`` to the one before.
+
+    Returns $h(m - 1)/h(m) - 1$, and that plus $h'(m)/h(m)$, which is small at high
+    orders. With Poisson's $m p_m = g p_{m-1}$ they give the derivatives of the series
+    $S$ by sums of terms that do not cancel:
+
+    $$g S_g = -\sum m\,p_m\,(h(m - 1) - h(m)), \qquad
+      S + g S_g + c S_c = -\sum m\,p_m\,(h(m - 1) - h(m) + h'(m))$$
+    """
+    first = u >= 1
+    u = jnp.where(first, 0.5, u)
+    v = u / (2 - u)  # the logarithm of 1 - u is -2 artanh(v)
+    excess = jnp.where(
+        u < 0.1,
+        v * (u + 2 * v * v * _horner(ARTANH_SERIES, v * v)),
+        -jnp.log1p(-u) - u,
+    )
+    slope, rest = u - c * u * u, excess - c * u * u * u / (1 - u)
+    logarithm = slope + rest
+    near = jnp.where(jnp.abs(logarithm) < 0.5, logarithm, 0.0)
+    change = jnp.expm1(logarithm)
+    curved = jnp.where(
+        jnp.abs(logarithm) < 0.5,
+        near * near * _horner(EXPM1_SERIES, near),
+        change - logarithm,
+    )
+    # nothing comes before the first order
+    return jnp.where(first, -1.0, change), jnp.where(first, c - 2, curved + rest)
 
 
 def _orders(g: Scalar, c: Scalar) -> tuple[Scalar, Scalar]:

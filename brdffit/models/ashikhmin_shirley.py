@@ -5,7 +5,7 @@ from typing import ClassVar
 import jax.numpy as jnp
 
 from brdffit import numerics
-from brdffit.geometry import bisector
+from brdffit.geometry import bisector, larger_cosine
 from brdffit.microfacet import fresnel
 from brdffit.models.base import AbstractBRDF
 from brdffit.parameters import parameter
@@ -78,7 +78,7 @@ class AshikhminShirley(AbstractBRDF):
         u, v = wh[0] / wh[2], wh[1] / wh[2]
         power = (pu * u * u + pv * v * v) * numerics.log1p_ratio(u * u + v * v)
         peak = numerics.sqrt(pu + 1) * numerics.sqrt(pv + 1) / (8 * jnp.pi)
-        gloss = peak * jnp.exp(-0.5 * power) / cos_d / jnp.maximum(cos_i, cos_o)
+        gloss = peak * jnp.exp(-0.5 * power) / cos_d / larger_cosine(wi, wo)
         base = 28 / (23 * jnp.pi) * bend(cos_i) * bend(cos_o)
         return self.diffuse * (1 - self.specular) * base + gloss * fresnel.schlick(
             cos_d, self.specular

@@ -19,9 +19,9 @@ class Banks(AbstractBRDF):
 
     Every plane through $T$ reflects alike, so a fibre sends light into a cone about
     itself. With $t = \omega\cdot T$ and $s = \sqrt{1 - t^2}$, which is
-    $\sqrt{y^2 + z^2}$ and so keeps its digits, the base of the power is
-    $1 - \bigl((t_i + t_o)^2 + (s_i - s_o)^2\bigr)/2$. No cosine to the normal enters,
-    as in the paper's specular term, and the lobe is not normalised.
+    $\sqrt{y^2 + z^2}$ and so keeps its digits, the base of the power is, where it is
+    close to 1, $1 - \bigl((t_i + t_o)^2 + (s_i - s_o)^2\bigr)/2$. No cosine to the
+    normal enters, as in the paper's specular term, and the lobe is not normalised.
 
     Range:
         $f_r \ge 0$; not energy conserving: for $k_d = k_s = 0.5$, $p = 10$ the albedo
@@ -63,8 +63,8 @@ class Banks(AbstractBRDF):
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         (ti, yi, zi), (to, yo, zo) = wi, wo
-        along = ti + to
-        across = numerics.norm_of(yi, zi) - numerics.norm_of(yo, zo)
+        si, so = numerics.norm_of(yi, zi), numerics.norm_of(yo, zo)
+        along, across = ti + to, si - so
         deficit = 0.5 * (along * along + across * across)
-        lobe = numerics.pow_complement(deficit, self.exponent)
+        lobe = numerics.pow_near_one(si * so - ti * to, deficit, self.exponent)
         return self.diffuse / jnp.pi + self.specular * lobe

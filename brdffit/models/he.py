@@ -5,6 +5,7 @@ from typing import ClassVar
 import jax
 import jax.numpy as jnp
 
+from brdffit import numerics
 from brdffit.geometry import bisector, cos_theta, mirror
 from brdffit.microfacet import diffraction, fresnel, masking_shadowing
 from brdffit.models.base import AbstractBRDF
@@ -28,8 +29,10 @@ class He(AbstractBRDF):
     $\alpha = 2\sigma_0/\tau$. Lengths `sigma0`, `tau` and `wavelengths` are in
     micrometres. `diffuse` is the reflectance of what is scattered below the surface.
 
-    The sum is taken over the orders that matter, by their logarithms. Two things differ
-    from the printed paper. Its $\Lambda$, eq. 25, lacks the factor $e^{-x^2}$, as its
+    The sum is taken over the orders that matter, by their logarithms, and times
+    $1 + g$, by which the factor before it is divided: on a rough surface neither then
+    depends on the wavelength, as the reflectance does not. Two things differ from the
+    printed paper. Its $\Lambda$, eq. 25, lacks the factor $e^{-x^2}$, as its
     errata say. Its $G$, eq. 76, is $(|H|^2/H_z)^2$ times a ratio of products of
     polarisation vectors that is 1 for all directions, and 0/0 in the retro direction.
 
@@ -94,13 +97,15 @@ class He(AbstractBRDF):
         x, y, z = wh
         length = fresnel.cos_d(wh) * 2
         f = fresnel.conductor(length / 2, self.eta, self.k)
-        width = jnp.pi * self.tau / self.wavelengths
-        series = jax.vmap(diffraction.scattering_series)(
-            self.phase(wi, wo), width * width * (x * x + y * y)
+        width = jnp.pi * self.tau
+        width /= numerics.norm_of(self.wavelengths, self.path(wi, wo))
+        width *= width
+        lobe = jax.vmap(diffraction.scattering_lobe)(
+            self.phase(wi, wo), width * (x * x + y * y)
         )
         g = length * (length / z)
         shadowing = self.shadowing(wi) * self.shadowing(wo)
-        scattered = f * (g * g * shadowing) * (width * width / 4) * series
+        scattered = f * (g * g * shadowing) * (width / 4) * lobe
         return (scattered + self.diffuse) / jnp.pi
 
     def specular_reflectance(self, wi: Direction) -> Spectrum:
@@ -111,9 +116,13 @@ class He(AbstractBRDF):
 
     def phase(self, wi: Direction, wo: Direction) -> Spectrum:
         """Square of the roughness in phase between two directions, ``g``."""
-        sigma = diffraction.effective_roughness(wi, wo, self.sigma0, self.tau)
-        phase = 2 * jnp.pi * sigma * (cos_theta(wi) + cos_theta(wo)) / self.wavelengths
+        phase = self.path(wi, wo) / self.wavelengths
         return phase * phase
+
+    def path(self, wi: Direction, wo: Direction) -> Scalar:
+        """Root of ``g`` before it is divided by the wavelength."""
+        sigma = diffraction.effective_roughness(wi, wo, self.sigma0, self.tau)
+        return 2 * jnp.pi * sigma * (cos_theta(wi) + cos_theta(wo))
 
     def shadowing(self, w: Direction) -> Scalar:
         """Factor of ``S`` that one direction contributes, over its cosine."""

@@ -2,6 +2,7 @@
 
 from typing import ClassVar
 
+import jax
 import jax.numpy as jnp
 
 from brdffit import numerics
@@ -19,7 +20,7 @@ class Lafortune(AbstractBRDF):
 
     $-C_x = -C_y = C_z = 1$ is the Phong lobe, $C_x = C_y$ an isotropic one; $C_z$ below
     $-C_x$ makes it lean towards grazing, positive $C_x$ and $C_y$ reflect back to the
-    light. The power is taken of 1 minus
+    light. Near 1 the power is taken of 1 minus
     $(1 - C_z) + C_z |\omega_r - \omega_o|^2/2 - (C_x + C_z) x_i x_o
     - (C_y + C_z) y_i y_o$, with $\omega_r$ the mirror image of $\omega_i$, which keeps
     its digits at high exponents.
@@ -89,8 +90,41 @@ class Lafortune(AbstractBRDF):
         return numerics.normalize(jnp.stack([self.c_x * x, self.c_y * y, up]))
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
-        x, y = wi[0] * wo[0], wi[1] * wo[1]
-        tilt = (self.c_x + self.c_z) * x + (self.c_y + self.c_z) * y
-        deficit = (1 - self.c_z) + self.c_z * mirror_deficit(wi, wo) - tilt
-        lobe = numerics.pow_complement(deficit, self.exponent)
+        image = image_cosine(self.c_x, self.c_y, self.c_z, wi, wo)
+        deficit = image_deficit(self.c_x, self.c_y, self.c_z, wi, wo)
+        lobe = numerics.pow_near_one(image, deficit, self.exponent)
         return self.diffuse / jnp.pi + self.specular * lobe
+
+
+def image_cosine(
+    c_x: Scalar, c_y: Scalar, c_z: Scalar, wi: Direction, wo: Direction
+) -> Scalar:
+    """Scalar product of ``wo`` with the linear image of ``wi``."""
+    (xi, yi, zi), (xo, yo, zo) = wi, wo
+    return c_x * (xi * xo) + c_y * (yi * yo) + c_z * (zi * zo)
+
+
+@jax.custom_jvp
+def image_deficit(
+    c_x: Scalar, c_y: Scalar, c_z: Scalar, wi: Direction, wo: Direction
+) -> Scalar:
+    """1 minus `image_cosine`, from what is small near the mirror direction."""
+    return _image_deficit(c_x, c_y, c_z, wi, wo)
+
+
+def _image_deficit(
+    c_x: Scalar, c_y: Scalar, c_z: Scalar, wi: Direction, wo: Direction
+) -> Scalar:
+    (xi, yi, _), (xo, yo, _) = wi, wo
+    tilt = (c_x + c_z) * (xi * xo) + (c_y + c_z) * (yi * yo)
+    return (1 - c_z) + c_z * mirror_deficit(wi, wo) - tilt
+
+
+@image_deficit.defjvp
+def _image_deficit_jvp(primals, tangents):
+    # by the coefficients it is a plain product, of which small terms would cancel
+    (*c, wi, wo), (*dc, dwi, dwo) = primals, tangents
+    value, by_directions = jax.jvp(
+        lambda wi, wo: _image_deficit(*c, wi, wo), (wi, wo), (dwi, dwo)
+    )
+    return value, by_directions - image_cosine(*dc, wi, wo)

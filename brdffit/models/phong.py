@@ -5,7 +5,7 @@ from typing import ClassVar
 import jax.numpy as jnp
 
 from brdffit import numerics
-from brdffit.geometry import mirror, mirror_deficit
+from brdffit.geometry import mirror, mirror_cosine, mirror_deficit
 from brdffit.models.base import AbstractBRDF
 from brdffit.parameters import parameter
 from brdffit.types import Direction, Scalar, Spectrum
@@ -17,9 +17,9 @@ class Phong(AbstractBRDF):
     $$f_r = \frac{k_d}{\pi} + k_s\,\frac{p + 2}{2\pi}\,
             \max(0, \omega_r\cdot\omega_o)^p$$
 
-    with $\omega_r$ the mirror image of $\omega_i$. The power is taken of
-    $1 - |\omega_r - \omega_o|^2/2$, which keeps its digits near the mirror direction.
-    The lobe is 0 where $\omega_r\cdot\omega_o \le 0$, for $p = 0$ too.
+    with $\omega_r$ the mirror image of $\omega_i$. Near the mirror direction the power
+    is taken of $1 - |\omega_r - \omega_o|^2/2$, which keeps its digits there. The lobe
+    is 0 where $\omega_r\cdot\omega_o \le 0$, for $p = 0$ too.
 
     Range:
         $f_r \ge 0$; directional albedo at most $k_d + k_s$, reached at normal
@@ -62,6 +62,7 @@ class Phong(AbstractBRDF):
         return mirror(wi)
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
-        lobe = numerics.pow_complement(mirror_deficit(wi, wo), self.exponent)
+        cosine, deficit = mirror_cosine(wi, wo), mirror_deficit(wi, wo)
+        lobe = numerics.pow_near_one(cosine, deficit, self.exponent)
         peak = (self.exponent + 2) / (2 * jnp.pi)
         return self.diffuse / jnp.pi + self.specular * (peak * lobe)

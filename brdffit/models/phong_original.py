@@ -2,8 +2,10 @@
 
 from typing import ClassVar
 
+import jax.numpy as jnp
+
 from brdffit import numerics
-from brdffit.geometry import mirror, mirror_deficit
+from brdffit.geometry import mirror, mirror_cosine, mirror_deficit
 from brdffit.models.base import AbstractBRDF
 from brdffit.parameters import parameter
 from brdffit.types import Direction, Scalar, Spectrum
@@ -16,9 +18,10 @@ class PhongOriginal(AbstractBRDF):
 
     with $\omega_r$ the mirror image of $\omega_i$. The weights are those of the shading
     equation $L = k_d I\,(n\cdot\omega_i) + k_s I\,(\omega_r\cdot\omega_o)^p$: $k_d$
-    carries no $1/\pi$, so the albedo of the diffuse part is $\pi k_d$. The power is
-    taken of $1 - |\omega_r - \omega_o|^2/2$, which keeps its digits near the mirror
-    direction. The lobe is 0 where $\omega_r\cdot\omega_o \le 0$, for $p = 0$ too.
+    carries no $1/\pi$, so the albedo of the diffuse part is $\pi k_d$. Near the
+    mirror direction the power is taken of $1 - |\omega_r - \omega_o|^2/2$, which keeps
+    its digits there. The lobe is 0 where $\omega_r\cdot\omega_o \le 0$, for $p = 0$
+    too.
 
     Range:
         $f_r \ge 0$, without bound as $\theta_i$ goes to 90 degrees: not reciprocal, not
@@ -61,5 +64,12 @@ class PhongOriginal(AbstractBRDF):
         return mirror(wi)
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
-        lobe = numerics.pow_complement(mirror_deficit(wi, wo), self.exponent)
-        return self.diffuse + self.specular * (lobe / wi[2])
+        (xi, yi, zi), (xo, yo, zo) = wi, wo
+        cosine, deficit = mirror_cosine(wi, wo), mirror_deficit(wi, wo)
+        # one of the powers over the cosine is a quotient that changes little, where
+        # the derivatives of the power and of the cosine alone would cancel
+        whole = self.exponent >= 1
+        quotient = jnp.maximum(zo - (xi * xo + yi * yo) / zi, 0.0)
+        rest = numerics.pow_near_one(cosine, deficit, self.exponent - whole)
+        lobe = rest * jnp.where(whole, quotient, 1 / zi)
+        return self.diffuse + self.specular * lobe

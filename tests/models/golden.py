@@ -156,6 +156,10 @@ def he(p):
     return He(**lengths, **metal, diffuse=scattered[None], wavelengths=p["lam"][None])
 
 
+def series_of_he(g, c):
+    return diffraction.scattering_lobe(g, c / (1 + g)) / (1 + g)
+
+
 def base_of_principled(p, wi, wo):
     cos_d = fresnel.cos_d(bisector(wi, wo))
     return p["base"] * principled.diffuse(wi[2], wo[2], cos_d, p["roughness"])
@@ -205,7 +209,7 @@ ENTRIES = {
     )._replace(select=no_anisotropy),
     "he": Entry(lambda p, wi, wo: he(p)(wi, wo)[0], "a_ud"),
     "he_spec": visible(lambda p, wi: he(p).specular_reflectance(wi)[0]),
-    "he_series": Entry(lambda p: diffraction.scattering_series(p["g"], p["c"])),
+    "he_series": Entry(lambda p: series_of_he(p["g"], p["c"])),
     "D_beckmann": slopes(ndf.beckmann, "ax", "ay"),
     "D_ggx": slopes(ndf.ggx, "ax", "ay"),
     "D_blinn": slopes(ndf.blinn, "p"),
