@@ -11,6 +11,8 @@ from brdffit.models.base import AbstractBRDF
 from brdffit.parameters import parameter
 from brdffit.types import Direction, Scalar, Spectrum
 
+Coefficients = tuple[Scalar, Scalar, Scalar]
+
 
 class Lafortune(AbstractBRDF):
     r"""Diffuse base plus one generalised cosine lobe.
@@ -90,32 +92,26 @@ class Lafortune(AbstractBRDF):
         return numerics.normalize(jnp.stack([self.c_x * x, self.c_y * y, up]))
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
-        image = image_cosine(self.c_x, self.c_y, self.c_z, wi, wo)
-        deficit = image_deficit(self.c_x, self.c_y, self.c_z, wi, wo)
+        c = (self.c_x, self.c_y, self.c_z)
+        image, deficit = image_cosine(c, wi, wo), image_deficit(c, wi, wo)
         lobe = numerics.pow_near_one(image, deficit, self.exponent)
         return self.diffuse / jnp.pi + self.specular * lobe
 
 
-def image_cosine(
-    c_x: Scalar, c_y: Scalar, c_z: Scalar, wi: Direction, wo: Direction
-) -> Scalar:
+def image_cosine(c: Coefficients, wi: Direction, wo: Direction) -> Scalar:
     """Scalar product of ``wo`` with the linear image of ``wi``."""
-    (xi, yi, zi), (xo, yo, zo) = wi, wo
+    (c_x, c_y, c_z), (xi, yi, zi), (xo, yo, zo) = c, wi, wo
     return c_x * (xi * xo) + c_y * (yi * yo) + c_z * (zi * zo)
 
 
 @jax.custom_jvp
-def image_deficit(
-    c_x: Scalar, c_y: Scalar, c_z: Scalar, wi: Direction, wo: Direction
-) -> Scalar:
+def image_deficit(c: Coefficients, wi: Direction, wo: Direction) -> Scalar:
     """1 minus `image_cosine`, from what is small near the mirror direction."""
-    return _image_deficit(c_x, c_y, c_z, wi, wo)
+    return _image_deficit(c, wi, wo)
 
 
-def _image_deficit(
-    c_x: Scalar, c_y: Scalar, c_z: Scalar, wi: Direction, wo: Direction
-) -> Scalar:
-    (xi, yi, _), (xo, yo, _) = wi, wo
+def _image_deficit(c: Coefficients, wi: Direction, wo: Direction) -> Scalar:
+    (c_x, c_y, c_z), (xi, yi, _), (xo, yo, _) = c, wi, wo
     tilt = (c_x + c_z) * (xi * xo) + (c_y + c_z) * (yi * yo)
     return (1 - c_z) + c_z * mirror_deficit(wi, wo) - tilt
 
@@ -123,8 +119,8 @@ def _image_deficit(
 @image_deficit.defjvp
 def _image_deficit_jvp(primals, tangents):
     # by the coefficients it is a plain product, of which small terms would cancel
-    (*c, wi, wo), (*dc, dwi, dwo) = primals, tangents
+    (c, wi, wo), (dc, dwi, dwo) = primals, tangents
     value, by_directions = jax.jvp(
-        lambda wi, wo: _image_deficit(*c, wi, wo), (wi, wo), (dwi, dwo)
+        lambda wi, wo: _image_deficit(c, wi, wo), (wi, wo), (dwi, dwo)
     )
-    return value, by_directions - image_cosine(*dc, wi, wo)
+    return value, by_directions - image_cosine(dc, wi, wo)

@@ -73,7 +73,7 @@ def test_stability_finds_the_printed_formula_wrong_and_ours_right(tmp_path):
     run = tomllib.loads((tmp_path / "run.toml").read_text())
     assert "ours 0 of 234 cases wrong" in run["finding"]
     at = {row["wi, wo"]: row for row in table(tmp_path, "directions")}
-    assert int(at["1e-6 rad, mirror"]["printed_value_wrong"]) > 0
+    assert int(at["50 deg, mirror"]["printed_value_wrong"]) > 0
     assert all(row["ours_value_wrong"] == "0" for row in at.values())
     bad = {(r["formula"], r["precision"]): int(r["bad"]) for r in table(tmp_path)}
     assert bad["ours", "float32"] == bad["ours", "float64"] == 0
