@@ -61,8 +61,8 @@ def _in_double_jvp(primals, tangents):
         by = jax.jacrev(_reflected, argnums=(0, 1))(*_double(brdf, wi))
         by = jax.tree.map(lambda x: x.astype(wi.dtype), by)
     pairs = zip(jax.tree.leaves(by), jax.tree.leaves(tangents), strict=True)
-    change = sum(jnp.tensordot(slope, moved, moved.ndim) for slope, moved in pairs)
-    return _in_double(brdf, wi), change
+    changes = [jnp.tensordot(slope, moved, moved.ndim) for slope, moved in pairs]
+    return _in_double(brdf, wi), jnp.sum(jnp.stack(changes), axis=0)
 
 
 def _double(*arguments: PyTree) -> PyTree:
