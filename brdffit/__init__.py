@@ -9,6 +9,7 @@ The package reads from top to bottom; a module imports only from lines above its
     half_difference        the grid of angles of MERL files
     microfacet             Fresnel, ndf, masking-shadowing
     models                 one BRDF per file
+    per_channel            a model whose channels share no value
     catalogue              models by name and in numbers
     optics, albedo         refractive indices of materials; integrals of a BRDF
     samples, images        weighted directions with values; linear images
@@ -32,7 +33,9 @@ if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
     from brdffit.cache import enable_compilation_cache as enable_compilation_cache
     from brdffit.fit import FitResult as FitResult, fit as fit
+    from brdffit.fit.bootstrap import bootstrap as bootstrap
     from brdffit.fit.least_squares import least_squares as least_squares
+    from brdffit.fit.profile import profile as profile
     from brdffit.fit.result import load_result as load_result
     from brdffit.fit.select import Comparison as Comparison, compare as compare
     from brdffit.models import MODELS as MODELS, AbstractBRDF as AbstractBRDF
@@ -61,6 +64,7 @@ _HOME = {
     "Noise": "render",
     "Samples": "samples",
     "Scene": "scene",
+    "bootstrap": "fit.bootstrap",
     "compare": "fit.select",
     "directional_albedo": "albedo",
     "enable_compilation_cache": "cache",
@@ -70,6 +74,7 @@ _HOME = {
     "load": "readers",
     "load_result": "fit.result",
     "load_scene": "scene",
+    "profile": "fit.profile",
     "render": "render",
     "simulate_image": "render",
     "simulate_measurement": "render",

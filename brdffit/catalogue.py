@@ -14,6 +14,7 @@ from brdffit.models import MODELS, AbstractBRDF
 from brdffit.models.base import RGB
 from brdffit.names import look_up
 from brdffit.parameters import registry_name
+from brdffit.per_channel import PerChannel
 
 
 def from_name(name: str, channels: int = RGB) -> AbstractBRDF:
@@ -33,6 +34,8 @@ def description(brdf: AbstractBRDF) -> dict[str, Any]:
     Numbers are as short as their precision allows; options are told where they differ
     from their default.
     """
+    if isinstance(brdf, PerChannel):
+        return {"per_channel": [description(part) for part in brdf.parts]}
     table: dict[str, Any] = {"model": registry_name(type(brdf))}
     for field in dataclasses.fields(brdf):
         value = getattr(brdf, field.name)
@@ -55,6 +58,8 @@ def from_description(table: Mapping[str, Any]) -> AbstractBRDF:
         TypeError: The model has no such field.
     """
     fields = dict(table)
+    if "per_channel" in fields:
+        return PerChannel(tuple(map(from_description, fields["per_channel"])))
     model = look_up(MODELS, fields.pop("model"), "Model")
     fields |= fields.pop("parameters", {})
     parts = {

@@ -19,6 +19,7 @@ def compare(
     residual: str | None = None,
     starts: int = 16,
     seed: int = 0,
+    second_lobe: bool = False,
     channels: Channels = None,
     out: Out = None,
     as_json: Json = False,
@@ -33,6 +34,7 @@ def compare(
         residual: What is compared. [log for reflectance, cosine_weighted for images]
         starts: Number of starts, spread over typical ranges. [16]
         seed: Seed of the split into directions that are fitted and held out. [0]
+        second_lobe: Also try the winner with a second lobe, if that earns its keep.
     """
     from brdffit.catalogue import from_name
     from brdffit.cli.inputs import read_data
@@ -52,7 +54,9 @@ def compare(
     if residual:
         look_up(RESIDUALS, residual, "Residual")
     brdffit.enable_compilation_cache()
-    with console.progress(1 + len(names) + (PICTURES if out else 0)) as step:
+    with console.progress(
+        1 + len(names) + second_lobe + (PICTURES if out else 0)
+    ) as step:
         step(f"reading {data.name}")
         measurement = read_data(data, channels)
         if out:
@@ -63,6 +67,7 @@ def compare(
             residual=residual,
             starts=starts,
             seed=seed,
+            second_lobe=second_lobe,
             on_model=lambda name: step(f"fitting {name}"),
         )
         written = []

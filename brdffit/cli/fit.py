@@ -9,6 +9,7 @@ import brdffit
 from brdffit.cli import console
 from brdffit.cli.options import Channels, Json, Out, assignments
 
+Words = Annotated[tuple[str, ...], Parameter(consume_multiple=True)]
 STEPS = 2  # reading and fitting
 PICTURES = 4  # steps of drawing
 
@@ -20,7 +21,13 @@ def fit(
     model: str,
     residual: str | None = None,
     starts: int = 16,
-    fix: Annotated[tuple[str, ...], Parameter(consume_multiple=True)] = (),
+    fix: Words = (),
+    tied: Words = (),
+    per_channel: Words = (),
+    prior: Words = (),
+    loss: str | None = None,
+    profile: str | None = None,
+    bootstrap: int | None = None,
     channels: Channels = None,
     out: Out = None,
     as_json: Json = False,
@@ -35,28 +42,50 @@ def fit(
         residual: What is compared. [log for reflectance, cosine_weighted for images]
         starts: Number of starts, spread over typical ranges. [16]
         fix: Parameters to hold, as in alpha=0.2.
+        tied: Parameters to give one value in all channels.
+        per_channel: Shared parameters to give a value in each channel.
+        prior: Mean and standard deviation of a parameter, as in alpha=0.2,0.05.
+        loss: huber or cauchy, which keep outliers from leading the fit.
+        profile: Parameter whose 95 % interval to find by refitting.
+        bootstrap: Number of resamples from which to find all 95 % intervals.
     """
     from brdffit.catalogue import from_name
     from brdffit.cli.inputs import read_data
-    from brdffit.cli.printing import print_fit
+    from brdffit.cli.printing import print_fit, print_intervals
     from brdffit.files import require_writable
     from brdffit.fit import RESIDUALS
     from brdffit.names import look_up
 
-    fixed = assignments(fix, "--fix")
+    options = {
+        "residual": residual,
+        "loss": loss,
+        "starts": starts,
+        "fixed": assignments(fix, "--fix"),
+        "tied": tied,
+        "per_channel": per_channel,
+        "priors": assignments(prior, "--prior"),
+    }
     from_name(model)
     if residual:
         look_up(RESIDUALS, residual, "Residual")
     brdffit.enable_compilation_cache()
-    with console.progress(STEPS + (PICTURES if out else 0)) as step:
+    more = (profile is not None) + (bootstrap is not None)
+    with console.progress(STEPS + more + (PICTURES if out else 0)) as step:
         step(f"reading {data.name}")
         measurement = read_data(data, channels)
         if out:
             require_writable(out)
         step(f"fitting {model}")
-        result = brdffit.fit(
-            model, measurement, residual=residual, starts=starts, fixed=fixed
-        )
+        result = brdffit.fit(model, measurement, **options)
+        found = {}
+        if profile is not None:
+            step(f"profile of {profile}")
+            found["profile"] = brdffit.profile(model, measurement, profile, **options)
+        if bootstrap is not None:
+            step(f"{bootstrap} resamples")
+            found["bootstrap"] = brdffit.bootstrap(
+                model, measurement, resamples=bootstrap, **options
+            )
         written = []
         if out:
             from brdffit.cli.pictures import write_pictures
@@ -65,8 +94,15 @@ def fit(
             result.save(out / "result.json")
             written = [out / "result.json"]
             written += write_pictures(measurement, result, out, step)
+            if profile is not None:
+                from brdffit.plots import profile_figure, save
+
+                written += save(profile_figure(found["profile"]), out, "profile")
     if as_json:
-        console.print_json(result.to_dict() | {"files": [str(p) for p in written]})
+        intervals = {name: each.to_dict() for name, each in found.items()}
+        files = {"files": [str(path) for path in written]}
+        console.print_json(result.to_dict() | intervals | files)
     else:
         print_fit(result, written)
+        print_intervals(**found)
     return 0 if result.converged else 1

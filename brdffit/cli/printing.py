@@ -3,14 +3,19 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from brdffit.cli.console import output, print_line, print_written
 from brdffit.cli.tables import (
+    new_table,
     parameter_table,
     ranking_table,
     residual_table,
     side_by_side,
 )
 from brdffit.fit import FitResult
+from brdffit.fit.bootstrap import Bootstrap
+from brdffit.fit.profile import Profile
 from brdffit.fit.select import TIE, Comparison
 
 
@@ -20,7 +25,7 @@ def print_fit(result: FitResult, written: Sequence[Path]) -> None:
     left_out = f", {result.masked} left out" if result.masked else ""
     print_line(
         f"{result.model} fitted to {result.data}: {result.count} values{left_out}, "
-        f"residual {result.residual}."
+        f"residual {result.residual}{f', loss {result.loss}' if result.loss else ''}."
     )
     print_line()
     console.print(parameter_table(result))
@@ -36,6 +41,32 @@ def print_fit(result: FitResult, written: Sequence[Path]) -> None:
     print_line(result.status)
     print_line(f"Path: {result.path}. Time: {result.seconds:.1f} s.")
     print_written(written)
+
+
+def print_intervals(
+    profile: Profile | None = None, bootstrap: Bootstrap | None = None
+) -> None:
+    """95 % intervals that do not take the cost for a parabola."""
+    if profile is not None:
+        low, high = profile.interval
+        print_line(
+            f"Profile: {profile.name} lies between {low:.4g} and {high:.4g} with 95 % "
+            "confidence."
+        )
+    if bootstrap is not None:
+        count = len(next(iter(bootstrap.parameters.values())))
+        table = new_table("parameter", "95 % from", "to", "error")
+        for name, ends in bootstrap.intervals.items():
+            errors = np.atleast_1d(bootstrap.standard_errors[name])
+            for place, (low, high) in enumerate(
+                zip(*map(np.atleast_1d, ends), strict=True)
+            ):
+                label = name if len(errors) == 1 else f"{name}[{place}]"
+                row = low, high, errors[place]
+                table.add_row(label, *(f"{number:.4g}" for number in row))
+        print_line(f"Residual bootstrap, {count} resamples:")
+        print_line()
+        output().print(table)
 
 
 def print_comparison(comparison: Comparison, written: Sequence[Path]) -> None:
@@ -61,6 +92,8 @@ def print_comparison(comparison: Comparison, written: Sequence[Path]) -> None:
             f"{', '.join(tied)} are tied: their held-out errors differ by less than "
             f"{TIE:g} standard errors."
         )
+    if comparison.second_lobe:
+        print_line(comparison.second_lobe)
     for entry in comparison.entries:
         print_doubts(entry.result, f"{entry.result.model}: ")
         if not entry.result.converged:

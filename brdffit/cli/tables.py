@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.measure import Measurement
 from rich.table import Table
 
+from brdffit.catalogue import from_name
 from brdffit.fit import FitResult
 from brdffit.fit.select import Comparison
 from brdffit.parameters import parameters
@@ -38,7 +39,7 @@ class Row(NamedTuple):
 
 def rows(result: FitResult) -> Iterator[Row]:
     """One row for each number of a fit, in the order of the correlation matrix."""
-    known = parameters(result.brdf)
+    known = parameters(from_name(result.model))
     labels = iter(result.labels)
     several = len(result.channels) > 1
     for name, value in result.parameters.items():

@@ -16,21 +16,43 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from brdffit.fit.blocks import Blocks
+from brdffit.fit.loss import Loss
 from brdffit.fit.residual import Residual
 from brdffit.fit.transforms import Layout, to_natural
 from brdffit.models import AbstractBRDF
-from brdffit.parameters import replace
+from brdffit.parameters import replace, values
 
 
 class Problem(eqx.Module):
-    """One fit: the model cut into channels, the samples, the residual, the bounds."""
+    """One fit: the model, the samples, and what is asked of the parameters.
 
-    channels: AbstractBRDF  # leaves with a leading channel axis
+    Attributes:
+        channels: The model cut into channels: leaves with a leading channel axis.
+        blocks: The samples.
+        lower, upper: Bounds of all parameters, in solver coordinates.
+        prior_mean: Where a prior expects each parameter, in its own unit.
+        prior_weight: What the square of a distance from there costs, doubled.
+        spread: Size of a residual of unit weight, from which a loss tells outliers.
+        layout: Where each parameter stands.
+        residual: What is compared.
+        loss: How much a large residual counts; None for its square.
+    """
+
+    channels: AbstractBRDF
     blocks: Blocks
-    lower: Float[Array, " n"]  # of all parameters, in solver coordinates
+    lower: Float[Array, " n"]
     upper: Float[Array, " n"]
+    prior_mean: Float[Array, " n"]
+    prior_weight: Float[Array, " n"]
+    spread: Float[Array, ""]
     layout: Layout = eqx.field(static=True)
     residual: Residual = eqx.field(static=True)
+    loss: Loss | None = eqx.field(static=True, default=None)
+
+    @property
+    def projected(self) -> bool:
+        """True when the linear parameters can be eliminated."""
+        return self.residual.affine and self.loss is None
 
     @property
     def nonlinear_places(self) -> np.ndarray:
@@ -42,13 +64,10 @@ class Problem(eqx.Module):
 @partial(jax.jit, static_argnums=0)
 def _reflectance(layout: Layout, channel: AbstractBRDF, linear, natural, wi, wo):
     """``f_r (light, place)`` of one channel; traced once, differentiated often."""
-    spectral = {name: known.spectral for name, known in layout.entries}
-    values = {
-        name: natural[i : i + 1] if spectral[name] else natural[i]
-        for i, name in enumerate(layout.nonlinear)
-    }
-    values |= {name: linear[i : i + 1] for i, name in enumerate(layout.linear)}
-    brdf = replace(channel, values)
+    found = dict(zip(layout.nonlinear, natural, strict=True))
+    found |= dict(zip(layout.linear, linear, strict=True))
+    shapes = {name: value.shape for name, value in values(channel).items()}
+    brdf = replace(channel, {n: v.reshape(shapes[n]) for n, v in found.items()})
     over_places = jax.vmap(brdf.evaluate, in_axes=(1, 1))
     return jax.vmap(over_places, in_axes=(1, None))(wi, wo)[..., 0]
 
@@ -97,6 +116,19 @@ def rows(problem: Problem, x, block, derivatives: bool):
         per_light = _channel_rows(problem, first, seen[0], block, derivatives)[None]
     weight = jnp.moveaxis(block.weight, 1, 0)  # channel or 1, light, place
     return jnp.sum(per_light * weight[:, None], axis=2)
+
+
+def mixed(linear: Array, basis: Array) -> Array:
+    """``C + sum of a_j B_j`` over the last but one axis, for each channel."""
+    ones = jnp.ones((linear.shape[0], 1))
+    combination = jnp.concatenate([ones, linear], axis=1).astype(basis.dtype)
+    return jnp.einsum("cj,c...jp->c...p", combination, basis)
+
+
+def transform_in(block: Blocks, residual: Residual):
+    """The transform of a residual on values ``(channel, place)`` of a block."""
+    cosines = jnp.asarray(block.cos_i)[None], jnp.asarray(block.cos_o)[None]
+    return lambda value: residual.transform(value, *cosines)
 
 
 def local(problem: Problem) -> np.ndarray:

@@ -29,6 +29,7 @@ class Blocks(eqx.Module):
         scale: Weight of a difference from ``target`` (a root: it enters squared); 0
             where masked.
         lean: Weight of a difference from ``value`` that means the same near it.
+        share: What of ``scale`` is the share of the solid angle; None without any.
         cos_i, cos_o: Cosines a residual may use.
         count: Number of blocks that hold samples.
         known_sigma: True when the weights are standard deviations of the observations.
@@ -44,6 +45,7 @@ class Blocks(eqx.Module):
     cos_i: Float[AnyArray, "*block place"]
     cos_o: Float[AnyArray, "*block place"]
     count: Int[AnyArray, ""]
+    share: Float[AnyArray, "*block 1 place"] | None
     known_sigma: bool = eqx.field(static=True)
 
 
@@ -79,10 +81,10 @@ def blocks(
     y = jnp.asarray(value)
     carried = jax.jvp(residual.on(samples), (y,), (jnp.ones_like(y),))
     target, slope = map(np.asarray, carried)
-    base = use.astype(float)
+    base, share = use.astype(float), None
     if samples.solid_angle is not None:
-        share = samples.solid_angle / samples.solid_angle.mean()
-        base = base * np.sqrt(share)[:, None]
+        share = np.sqrt(samples.solid_angle / samples.solid_angle.mean())[:, None]
+        base = base * share
     if samples.sigma is None:
         scale, lean = base, base * slope
     else:
@@ -118,6 +120,7 @@ def blocks(
         cos_i=lay(samples.cosine, HARMLESS[2]),
         cos_o=lay(samples.wo[:, 2], HARMLESS[2]),
         count=np.asarray(number, np.int32),
+        share=None if share is None else lay(share, 1),
         known_sigma=samples.sigma is not None,
     )
 

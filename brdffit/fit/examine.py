@@ -1,5 +1,6 @@
 """The solution looked at: errors, bounds, costs under every residual, in words."""
 
+import dataclasses
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -12,13 +13,16 @@ import optimistix as optx
 from brdffit.compiled import compiled
 from brdffit.fit import structure
 from brdffit.fit.basis import Problem
+from brdffit.fit.costs import costs
 from brdffit.fit.residual import RESIDUALS
+from brdffit.fit.robust import inflation
 from brdffit.fit.search import Search
 from brdffit.fit.solve import sentence
 from brdffit.fit.transforms import Layout, to_natural
 from brdffit.fit.uncertainty import uncertainty
 
 AT_BOUND = 1e-7  # distance from a bound, in widths of the interval
+POOR = 0.5  # share of the variation of the data below which a model explains little
 NEARBY = 0.02  # distance from a bound within which to try whether it serves as well
 
 
@@ -41,13 +45,22 @@ def examine(
     layout = problem.layout
     lower, upper = np.asarray(problem.lower), np.asarray(problem.upper)
     x, (equations, tallies, natural, slopes) = _settled(problem, found.x)
+    lost, robust = 1.0, problem.loss is not None
+    if robust:
+        lost = float(inflation(problem, jnp.asarray(x)) * problem.spread**2)
+        problem = dataclasses.replace(problem, loss=None)
+        equations = _look(problem, x)[0]
+    expected = np.asarray(problem.prior_weight) * (natural - problem.prior_mean) ** 2
     natural[list(held)] = list(held.values())
     near = AT_BOUND * (upper - lower)
     fixed = np.isin(np.arange(len(x)), list(held))
     low, high = ~fixed & (x <= lower + near), ~fixed & (x >= upper - near)
-    cost = float(equations.cost)
+    cost = float(equations.cost - np.sum(expected) / 2)
     freedom = count - int(np.sum(~fixed & ~low & ~high))
-    variance = 1.0 if known_sigma else 2 * cost / max(freedom, 1)
+    if robust:
+        variance = lost * count / max(freedom, 1)
+    else:
+        variance = 1.0 if known_sigma else 2 * cost / max(freedom, 1)
     errors = uncertainty(
         hessian=equations.hessian,
         natural=natural,
@@ -69,6 +82,7 @@ def examine(
         for i in np.flatnonzero(where)
         if layout.labels[i] not in errors.undetermined
     }
+    explained = _explained(problem, cost)
     unknowns = len(x) - len(held) + (not known_sigma)
     deviance = _deviance(cost, count, known_sigma)
     return {
@@ -92,7 +106,9 @@ def examine(
         + 2 * unknowns * (unknowns + 1) / max(count - unknowns - 1, 1),
         "bic": deviance + unknowns * math.log(count),
         "converged": bool(found.status == optx.RESULTS.successful),
-        "status": _sentence(found),
+        "held": tuple(layout.labels[place] for place in sorted(held)),
+        "explained": explained,
+        "status": _sentence(found, explained),
         "steps": found.steps,
         "basins": found.basins,
         "agreement": found.agreement,
@@ -105,11 +121,7 @@ def _settled(problem: Problem, x: np.ndarray):
     Where a parameter enters as a square, the slope of the cost vanishes at its bound 0
     and a solver only creeps there. Returns the point and what `_at` says of it.
     """
-
-    def look(x):
-        return jax.tree.map(np.array, _at(problem, jnp.asarray(x)))
-
-    facts = look(x)
+    facts = _look(problem, x)
     bounds = np.asarray(problem.lower), np.asarray(problem.upper)
     for place in range(len(x)):
         for bound in bounds:
@@ -117,10 +129,15 @@ def _settled(problem: Problem, x: np.ndarray):
             if 0 < distance < NEARBY * (bounds[1] - bounds[0])[place]:
                 moved = x.copy()
                 moved[place] = bound[place]
-                there = look(moved)
+                there = _look(problem, moved)
                 if there[0].cost <= facts[0].cost + facts[0].rounding:
                     x, facts = moved, there
     return x, facts
+
+
+def _look(problem: Problem, x: np.ndarray):
+    """What `_at` says of a point, as arrays that can be changed."""
+    return jax.tree.map(np.array, _at(problem, jnp.asarray(x)))
 
 
 def _error_of_a_square(problem, x, place, equations, variance) -> float:
@@ -150,7 +167,7 @@ def _at(problem: Problem, x):
     values, slopes = jax.jvp(natural, (x,), (jnp.ones_like(x),))
     residuals = tuple(RESIDUALS.values())
     equations = structure.stream(problem, x)
-    return equations, structure.costs(problem, x, residuals), values, slopes
+    return equations, costs(problem, x, residuals), values, slopes
 
 
 def _by_name(layout: Layout, vector: np.ndarray) -> dict[str, Any]:
@@ -176,9 +193,28 @@ def _p_value(chi_square: float, freedom: int) -> float:
     return float(gammaincc(max(freedom, 1) / 2, chi_square / 2))
 
 
-def _sentence(found: Search) -> str:
+def _explained(problem: Problem, cost: float) -> float | None:
+    """Share of the weighted variance of the data that the model explains."""
+    block = problem.blocks
+    weight = np.broadcast_to(np.square(block.scale), block.target.shape)
+    whole = np.sum(weight, axis=(0, 2), keepdims=True)
+    mean = np.sum(weight * block.target, axis=(0, 2), keepdims=True) / whole
+    variation = float(np.sum(weight * np.square(block.target - mean)))
+    rounding = np.finfo(np.float32).eps * float(np.sum(whole * mean**2))
+    return 1 - 2 * cost / variation if variation > rounding else None
+
+
+def _sentence(found: Search, explained: float | None) -> str:
+    doubt = ""
+    if explained is None:
+        doubt = " The data do not vary, so they say little about the material."
+    elif explained < POOR:
+        doubt = (
+            f" The model explains {max(explained, 0):.0%} of the variation of the "
+            "data: another may be called for."
+        )
     return (
         f"{sentence(found.status, found.steps)}; "
         f"{found.agreement:.0%} of the starts agree on this minimum"
-        f"{f' of {found.basins} met' if found.basins > 1 else ''}."
+        f"{f' of {found.basins} met' if found.basins > 1 else ''}.{doubt}"
     )

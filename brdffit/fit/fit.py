@@ -7,28 +7,41 @@ from functools import partial
 import jax
 import jax.numpy as jnp
 import numpy as np
+import optimistix as optx
 
 from brdffit.catalogue import from_name
 from brdffit.fit.basis import Problem
 from brdffit.fit.blocks import blocks, usable
+from brdffit.fit.conditions import (
+    Numbers,
+    Prior,
+    bounded_problem,
+    held_values,
+    hold_at,
+    priors_of,
+)
 from brdffit.fit.examine import examine
+from brdffit.fit.loss import LOSSES, Loss
+from brdffit.fit.misfit import misfit
+from brdffit.fit.plain import residual_vector, search_plainly
 from brdffit.fit.residual import RESIDUALS, Residual, cosine_weighted, log
 from brdffit.fit.result import FitResult
-from brdffit.fit.search import RTOL, search
-from brdffit.fit.start import spread_starts
+from brdffit.fit.robust import spread_of
+from brdffit.fit.search import RTOL, Search, search
+from brdffit.fit.start import starts as starts_of, typical_box
 from brdffit.fit.transforms import (
     Layout,
-    bounds,
-    channel_models,
     pack,
-    to_solver,
+    to_natural,
+    unpack,
 )
 from brdffit.models import AbstractBRDF
 from brdffit.names import look_up
-from brdffit.parameters import check, registry_name, replace, values
+from brdffit.parameters import check, registry_name
 from brdffit.samples import Measurement, Samples, as_samples
 
 MAX_STEPS = 200
+ROUNDS = 2  # of finding the noise and fitting again, where a fit must know it
 
 
 def fit(
@@ -36,9 +49,14 @@ def fit(
     data: Measurement | Samples,
     *,
     residual: str | Residual | None = None,
+    loss: str | Loss | None = None,
     starts: int = 16,
-    fixed: Mapping[str, float | Sequence[float]] | None = None,
+    fixed: Mapping[str, Numbers] | None = None,
+    tied: Sequence[str] = (),
+    per_channel: Sequence[str] = (),
+    priors: Mapping[str, Prior] | None = None,
     precision: str = "float64",
+    solver: optx.AbstractLeastSquaresSolver | None = None,
     max_steps: int = MAX_STEPS,
 ) -> FitResult:
     """Fit the parameters of a model to measured or simulated reflectance.
@@ -49,10 +67,21 @@ def fit(
         data: What to explain.
         residual: Comparison whose squares are minimised, by name or itself; by default
             `log` for reflectance and `cosine_weighted` for images.
-        starts: Number of starts, spread over the typical ranges of the parameters.
+        loss: ``"huber"`` or ``"cauchy"``, which keep outliers from leading the fit; by
+            default every square counts in full. Outliers are told by the known errors
+            of the data, or else by the spread of most of the residuals.
+        starts: Number of starts: one at the lobe of the data, the others spread over
+            the typical ranges of the parameters.
         fixed: Parameters to hold, with their values.
+        tied: Spectral parameters to give one value in all channels.
+        per_channel: Shared parameters to give a value in each channel.
+        priors: Mean and standard deviation of what is known of parameters beforehand,
+            by name. They weigh against the known errors of the data, or else against
+            the noise that a fit without them leaves.
         precision: ``"float64"`` or ``"float32"``: that in which models are evaluated.
             Sums are always double, and so are the errors and costs reported.
+        solver: A least-squares solver of optimistix, to take instead of the one that
+            uses the structure of the model; slower, and without loss or priors.
         max_steps: Number of steps after which a start gives up.
 
     Returns:
@@ -64,12 +93,7 @@ def fit(
             not match, or no usable sample; a sentence says which.
     """
     begin = time.perf_counter()
-    if precision not in RTOL:
-        raise ValueError(
-            f"Precision must be `float64` or `float32`, but is `{precision}`."
-        )
-    if starts < 1:
-        raise ValueError(f"`starts` must be 1 or above, but is {starts}.")
+    _require_options(precision, starts, solver is not None and bool(loss or priors))
     samples = as_samples(data)
     if samples.value is None:
         raise ValueError(
@@ -77,26 +101,51 @@ def fit(
             "been observed or rendered."
         )
     brdf = _model(model, samples.value.shape[1])
-    residual = default_residual(data, residual)
-    use = usable(samples, residual)
-    brdf = _hold(brdf, fixed or {})
     check(brdf)
-    layout = Layout.of(brdf)
+    residual = default_residual(data, residual)
+    loss = look_up(LOSSES, loss, "Loss") if isinstance(loss, str) else loss
+    layout = Layout.of(brdf, tied, per_channel)
+    held = held_values(layout, fixed or {}, registry_name(brdf))
+    prior = priors_of(layout, priors or {})
+    use = usable(samples, residual)
     _require_data(use, layout, samples, residual)
+    known_sigma = samples.sigma is not None
     with jax.enable_x64(True):
-        held = _held(layout, fixed or {})
-        x0 = _starts(layout, brdf, starts, held, given=not isinstance(model, str))
+        own = None if isinstance(model, str) else pack(layout, brdf)
+        x0 = starts_of(layout, samples, use, starts, own)
+        x0[:, list(held)] = hold_at(layout, held)
         problem = bounded_problem(layout, brdf, residual, held)
         exact = problem(blocks=blocks(samples, use, residual, np.dtype(np.float64)))
-        found = search(problem, exact, samples, use, x0, precision, max_steps)
-        facts = examine(exact, found, held, int(use.sum()), samples.sigma is not None)
+        if solver is not None:
+            residuals = residual_vector(layout, brdf, samples, use, residual)
+            middle = np.mean(typical_box(layout), axis=0)
+            x0 = np.where(np.isnan(x0), middle, x0)
+            found = search_plainly(residuals, exact, x0, solver, max_steps)
+        else:
+            found = search(problem, exact, samples, use, x0, precision, max_steps)
+        for _ in range(ROUNDS if loss or priors else 0):
+            spread = _spread(found, layout, brdf, samples, use, residual, loss)
+            asked = {
+                "loss": loss,
+                "spread": jnp.asarray(spread),
+                "prior_mean": jnp.asarray(prior[0]),
+                "prior_weight": jnp.asarray(prior[1] * spread**2),
+            }
+            problem = partial(problem, **asked)
+            exact = problem(blocks=exact.blocks)
+            again = np.concatenate([found.x[None], x0])[:starts]
+            found = search(problem, exact, samples, use, again, precision, max_steps)
+            if known_sigma:
+                break
+        facts = examine(exact, found, held, int(use.sum()), known_sigma)
     return FitResult(
-        brdf=_fitted(brdf, facts["parameters"]),
+        brdf=_fitted(layout, brdf, facts["parameters"]),
         model=registry_name(brdf),
         residual=residual.name,
+        loss=loss and loss.name,
         masked=int(use.size - use.sum()),
         starts=len(x0),
-        path=_path(layout, residual, precision),
+        path=_path(exact, precision, solver),
         seconds=time.perf_counter() - begin,
         data=samples.name,
         channels=samples.channels,
@@ -119,31 +168,29 @@ def default_residual(
     return residual
 
 
+def _require_options(precision: str, starts: int, lost: bool) -> None:
+    if precision not in RTOL:
+        raise ValueError(
+            f"Precision must be `float64` or `float32`, but is `{precision}`."
+        )
+    if starts < 1:
+        raise ValueError(f"`starts` must be 1 or above, but is {starts}.")
+    if lost:
+        raise ValueError(
+            "A `solver` of optimistix must be asked for without `loss` and `priors`, "
+            "which only the solver of brdffit knows."
+        )
+
+
 def _model(model: str | AbstractBRDF, channels: int) -> AbstractBRDF:
     if not isinstance(model, str):
-        layout = Layout.of(model)
-        if layout.channels != channels:
+        if model.channels != channels:
             raise ValueError(
                 f"Model `{registry_name(model)}` must have the {channels} channels of "
-                f"the data, but has {layout.channels}."
+                f"the data, but has {model.channels}."
             )
         return model
     return from_name(model, channels)
-
-
-def _hold(brdf: AbstractBRDF, fixed: Mapping) -> AbstractBRDF:
-    current = values(brdf)
-    for name in fixed:
-        look_up(current, name, "Parameter")
-    given = {name: jnp.asarray(value, float) for name, value in fixed.items()}
-    for name, value in given.items():
-        if value.size not in (1, current[name].size):
-            raise ValueError(
-                f"Parameter `{name}` of `{registry_name(brdf)}` must be held at "
-                f"{current[name].size} numbers or one, but is given {value.size}."
-            )
-        given[name] = jnp.broadcast_to(value.squeeze(), current[name].shape)
-    return replace(brdf, given)
 
 
 def _require_data(use, layout: Layout, samples: Samples, residual: Residual) -> None:
@@ -161,62 +208,38 @@ def _require_data(use, layout: Layout, samples: Samples, residual: Residual) -> 
         )
 
 
-def _held(layout: Layout, fixed: Mapping) -> dict[int, float]:
-    """Values of the fixed parameters, by place."""
-    return {
-        place: float(value)
-        for name, given in fixed.items()
-        for place, value in zip(
-            layout.places[name],
-            np.broadcast_to(given, len(layout.places[name])),
-            strict=True,
-        )
-    }
+def _spread(
+    found: Search, layout, brdf, samples, use, residual, loss: Loss | None
+) -> float:
+    """Standard deviation of a residual of unit weight: 1 when errors are known."""
+    if samples.sigma is not None:
+        return 1.0
+    if loss is None:
+        unknown = len(layout.labels)
+        return float(np.sqrt(2 * found.cost / max(use.sum() - unknown, 1)))
+    places = tuple(range(len(layout.labels)))
+    natural = to_natural(layout, jnp.asarray(found.x), places)
+    return spread_of(misfit(unpack(layout, brdf, natural), samples, residual))
 
 
-def _starts(layout, brdf, count, held: Mapping[int, float], given: bool) -> np.ndarray:
-    """Starting points; the first is the model's own when one was given."""
-    spread = spread_starts(layout, max(count - given, 0))
-    starts = np.concatenate([to_solver(layout, pack(brdf))[None], spread])[not given :]
-    starts[:, list(held)] = _hold_at(layout, held)
-    return starts
-
-
-def bounded_problem(
-    layout: Layout,
-    brdf: AbstractBRDF,
-    residual: Residual,
-    held: Mapping[int, float],
-) -> partial[Problem]:
-    """A fit that lacks only its samples; the places ``held`` keep their values."""
-    lower, upper = bounds(layout)
-    lower[list(held)] = upper[list(held)] = _hold_at(layout, held)
-    return partial(
-        Problem,
-        channels=channel_models(brdf),
-        lower=jnp.asarray(lower),
-        upper=jnp.asarray(upper),
-        layout=layout,
-        residual=residual,
-    )
-
-
-def _hold_at(layout: Layout, held: Mapping[int, float]) -> np.ndarray:
-    natural = np.array([p.typical[0] for p in layout.known])
-    natural[list(held)] = list(held.values())
-    return to_solver(layout, natural)[list(held)]
-
-
-def _fitted(brdf: AbstractBRDF, natural: Mapping[str, np.ndarray]) -> AbstractBRDF:
+def _fitted(
+    layout: Layout, brdf: AbstractBRDF, natural: Mapping[str, np.ndarray]
+) -> AbstractBRDF:
     """The model with the fitted values, in the precision JAX is set to."""
-    return replace(brdf, {n: jnp.asarray(v, float) for n, v in natural.items()})
+    flat = np.concatenate([np.atleast_1d(v) for v in natural.values()])
+    return unpack(layout, brdf, jnp.asarray(flat, float))
 
 
-def _path(layout: Layout, residual: Residual, precision: str) -> str:
+def _path(
+    problem: Problem, precision: str, solver: optx.AbstractLeastSquaresSolver | None
+) -> str:
+    layout = problem.layout
+    if solver is not None:
+        return f"plain vector of residuals; {type(solver).__name__}; float64"
     basis = "per channel" if layout.separate else "shared by all channels"
     solved = (
         "linear parameters eliminated by variable projection"
-        if residual.affine and layout.linear
+        if problem.projected and layout.linear
         else "all parameters solved together from a streamed Jacobian"
     )
     return f"basis functions {basis}; {solved}; {precision}"

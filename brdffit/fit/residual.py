@@ -26,6 +26,7 @@ class Residual:
         name: Name at the command line.
         transform: ``(value, cos_i, cos_o) -> compared quantity``, elementwise. For
             images ``cos_i`` is 1, because the value is radiance and holds it already.
+        inverse: ``(compared quantity, cos_i, cos_o) -> value``.
         affine: True when ``transform`` is affine in the value, which lets the linear
             parameters of a model be eliminated.
         positive: True when only values above 0 can be compared; others are masked.
@@ -34,6 +35,7 @@ class Residual:
 
     name: str
     transform: Transform
+    inverse: Transform
     affine: bool = False
     positive: bool = False
     label: str = ""
@@ -49,9 +51,19 @@ def _plain(value: Array, cos_i: Array, cos_o: Array) -> Array:
     return value
 
 
+def _value_of_plain(plain: Array, cos_i: Array, cos_o: Array) -> Array:
+    del cos_i, cos_o
+    return plain
+
+
 def _cosine_weighted(value: Array, cos_i: Array, cos_o: Array) -> Array:
     del cos_o
     return value * cos_i
+
+
+def _value_of_cosine_weighted(weighted: Array, cos_i: Array, cos_o: Array) -> Array:
+    del cos_o
+    return weighted / cos_i
 
 
 def _log(value: Array, cos_i: Array, cos_o: Array) -> Array:
@@ -59,14 +71,29 @@ def _log(value: Array, cos_i: Array, cos_o: Array) -> Array:
     return numerics.log(value)
 
 
+def _value_of_log(logarithm: Array, cos_i: Array, cos_o: Array) -> Array:
+    del cos_i, cos_o
+    return jnp.exp(logarithm)
+
+
 def _log_cosine(value: Array, cos_i: Array, cos_o: Array) -> Array:
     del cos_o
     return jnp.log1p(value * cos_i)
 
 
+def _value_of_log_cosine(logarithm: Array, cos_i: Array, cos_o: Array) -> Array:
+    del cos_o
+    return jnp.expm1(logarithm) / cos_i
+
+
 def _cube_root(value: Array, cos_i: Array, cos_o: Array) -> Array:
     del cos_o
     return numerics.cbrt(value * cos_i)
+
+
+def _value_of_cube_root(root: Array, cos_i: Array, cos_o: Array) -> Array:
+    del cos_o
+    return root**3 / cos_i
 
 
 LOG_RELATIVE_OFFSET = 1e-3
@@ -76,24 +103,40 @@ def _log_relative(value: Array, cos_i: Array, cos_o: Array) -> Array:
     return jnp.log(value * cos_i * cos_o + LOG_RELATIVE_OFFSET)
 
 
-plain = Residual("plain", _plain, affine=True, label="$f_r$ [1/sr]")
+def _value_of_log_relative(logarithm: Array, cos_i: Array, cos_o: Array) -> Array:
+    return (jnp.exp(logarithm) - LOG_RELATIVE_OFFSET) / (cos_i * cos_o)
+
+
+plain = Residual("plain", _plain, _value_of_plain, affine=True, label="$f_r$ [1/sr]")
 """The value itself; squares are dominated by the highlight."""
 
 cosine_weighted = Residual(
-    "cosine_weighted", _cosine_weighted, affine=True, label=r"$f_r \cos\theta_i$ [1/sr]"
+    "cosine_weighted",
+    _cosine_weighted,
+    _value_of_cosine_weighted,
+    affine=True,
+    label=r"$f_r \cos\theta_i$ [1/sr]",
 )
 """Reflected radiance under unit radiance (A. Ngan et al., "Experimental Analysis of
 BRDF Models", EGSR 2005, sec. 3)."""
 
-log = Residual("log", _log, positive=True, label=r"$\ln f_r$")
+log = Residual("log", _log, _value_of_log, positive=True, label=r"$\ln f_r$")
 """Relative error: a factor counts the same in the highlight and in the base."""
 
-log_cosine = Residual("log_cosine", _log_cosine, label=r"$\ln(1 + f_r \cos\theta_i)$")
+log_cosine = Residual(
+    "log_cosine",
+    _log_cosine,
+    _value_of_log_cosine,
+    label=r"$\ln(1 + f_r \cos\theta_i)$",
+)
 """J. Low, J. Kronander, A. Ynnerman, J. Unger, "BRDF Models for Accurate and Efficient
 Rendering of Glossy Surfaces", ACM TOG 31(1), 2012."""
 
 cube_root = Residual(
-    "cube_root", _cube_root, label=r"$(f_r \cos\theta_i)^{1/3}$ [sr$^{-1/3}$]"
+    "cube_root",
+    _cube_root,
+    _value_of_cube_root,
+    label=r"$(f_r \cos\theta_i)^{1/3}$ [sr$^{-1/3}$]",
 )
 """Close to perceived lightness (A. Fores, J. Ferwerda, J. Gu, "Toward a Perceptually
 Based Metric for BRDF Modeling", Color and Imaging Conference 2012)."""
@@ -101,6 +144,7 @@ Based Metric for BRDF Modeling", Color and Imaging Conference 2012)."""
 log_relative = Residual(
     "log_relative",
     _log_relative,
+    _value_of_log_relative,
     label=r"$\ln(f_r \cos\theta_i \cos\theta_o + 10^{-3})$",
 )
 """The log-relative mapping of J. B. Nielsen, H. W. Jensen, R. Ramamoorthi, "On Optimal,

@@ -31,15 +31,20 @@ class FitResult:
         standard_errors: One standard deviation of each, in the same shape; infinite
             where undetermined. For a parameter at its bound the error it would have if
             it were free.
+        held: Labels of the parameters that were held.
         labels: Name of each row of `correlation`, in the order of `parameters`.
         correlation: Correlation of the errors; 0 for parameters at a bound or
             undetermined.
         at_bound: Sentence per parameter that sits on a bound of its legal interval.
         undetermined: Sentence per parameter that the data cannot tell.
         residual: Name of the residual that was minimised.
-        cost: Half the weighted sum of squares of that residual.
+        loss: Name of the robust loss of it, or None for its square.
+        cost: Half the weighted sum of squares of that residual, solid angles and known
+            errors included, priors not.
         costs: The same under every residual, at this solution.
-        rms: Root of the mean square under every residual.
+        rms: Root of the mean square under every residual, all values weighing the same.
+        explained: Share of the weighted variance of the data that the model explains;
+            None where the data do not vary.
         count: Number of values used (samples times channels).
         masked: Number of values left out.
         chi_square: Sum of squares over known variances, or None when unknown.
@@ -62,14 +67,17 @@ class FitResult:
     model: str
     parameters: dict[str, Any]
     standard_errors: dict[str, Any]
+    held: tuple[str, ...]
     labels: tuple[str, ...]
     correlation: np.ndarray
     at_bound: dict[str, str]
     undetermined: dict[str, str]
     residual: str
+    loss: str | None
     cost: float
     costs: dict[str, float]
     rms: dict[str, float]
+    explained: float | None
     count: int
     masked: int
     chi_square: float | None
@@ -140,7 +148,7 @@ def load_result(path: str | os.PathLike) -> FitResult:
         for name in ("parameters", "standard_errors"):
             fields[name] = {n: _array(v) for n, v in fields[name].items()}
         fields["correlation"] = np.array(fields["correlation"])
-        for name in ("labels", "channels"):
+        for name in ("held", "labels", "channels"):
             fields[name] = tuple(fields[name])
         for name in ("aicc", "bic"):
             fields[name] = float(fields[name])

@@ -14,6 +14,7 @@ from brdffit.fit import structure
 from brdffit.fit.basis import Problem
 from brdffit.fit.blocks import blocks
 from brdffit.fit.solve import BoundedLevenbergMarquardt
+from brdffit.fit.start import typical_box
 from brdffit.samples import Samples
 
 RTOL = {"float64": 1e-12, "float32": 1e-9}
@@ -45,6 +46,7 @@ class Search(eqx.Module):
 
     Attributes:
         x: The best point found.
+        cost: What is minimised, there.
         steps: Steps of the solve that found it.
         status: Its outcome.
         basins: Number of distinct minima met.
@@ -52,6 +54,7 @@ class Search(eqx.Module):
     """
 
     x: np.ndarray
+    cost: float
     steps: int
     status: optx.RESULTS
     basins: int
@@ -96,11 +99,21 @@ def search(
     if dtype != exact.blocks.wi.dtype:
         whole = problem(blocks=blocks(samples, use, residual, dtype))
     final = solve(whole, jnp.asarray(starts), rtol=rtol, max_steps=max_steps)
-    met = final if met is None else met
+    return outcome(final if met is None else met, final)
+
+
+def outcome(met: Minima, final: Minima) -> Search:
+    """The best minimum, and how many there are.
+
+    Args:
+        met: Where the starts ended.
+        final: Where the best of them were finished.
+    """
     near = np.asarray(met.cost) <= np.nanmin(met.cost) + _same(met)
     best = _best(final)
     return Search(
         x=np.asarray(final.x[best]),
+        cost=float(final.cost[best]),
         steps=int(final.steps[best]),
         status=jax.tree.map(lambda leaf: leaf[best], final.status),
         basins=len(_distinct(met)),
@@ -148,12 +161,15 @@ def _solve(problem: Problem, starts: Array, rtol: float, max_steps: int) -> Mini
     Each start takes the steps that it needs and no more; batched, all would take those
     of the slowest, and the small matrix products of a batch are slow on a CPU.
 
-    Where the residual is affine the solver sees the nonlinear parameters alone;
-    otherwise it sees all, and the linear ones start where they fit best.
+    Where linear parameters can be eliminated the solver sees the others alone. Where
+    not it sees all, and the linear ones whose start is NaN begin where they fit best
+    within their typical range: at a bound, such as a lobe of no height, the others may
+    have no effect to begin with.
     """
     nonlinear, layout = problem.nonlinear_places, problem.layout
     linear_places = layout.channel_places(layout.linear)
-    projected = problem.residual.affine
+    low, high = (box[linear_places] for box in typical_box(layout))
+    projected = problem.projected
     seen = nonlinear if projected else np.arange(starts.shape[1])
     options = {"lower": problem.lower[seen], "upper": problem.upper[seen]}
     solver = BoundedLevenbergMarquardt(rtol)
@@ -166,7 +182,9 @@ def _solve(problem: Problem, starts: Array, rtol: float, max_steps: int) -> Mini
     def from_start(x):
         if not projected:
             _, linear = structure.project(problem, x[nonlinear], derivatives=False)
-            x = x.at[linear_places].set(linear)
+            given = x[linear_places]
+            begin = jnp.where(jnp.isnan(given), jnp.clip(linear, low, high), given)
+            x = x.at[linear_places].set(begin)
         solution = optx.least_squares(
             equations,
             solver,

@@ -20,6 +20,7 @@ from brdffit.parameters import registry_name
 from brdffit.samples import Measurement, Samples, as_samples
 
 HELD_OUT = 0.2  # share of the directions that a fit never sees
+LOBE = "ggx_lobe"  # what is added as a second lobe
 TIE = 2.0  # standard errors of the difference within which two models tie
 
 
@@ -50,6 +51,8 @@ class Comparison:
         held_out_count: Number of directions held out.
         seed: Seed of the split.
         data: Name of the measurement.
+        second_lobe: Whether a second lobe earned its parameters, as a sentence; empty
+            when none was asked for.
     """
 
     entries: tuple[Entry, ...]
@@ -57,6 +60,7 @@ class Comparison:
     held_out_count: int
     seed: int
     data: str
+    second_lobe: str = ""
 
     @property
     def best(self) -> FitResult:
@@ -65,8 +69,16 @@ class Comparison:
 
     @property
     def results(self) -> dict[str, FitResult]:
-        """The fit of each model, by its name, in the order of the ranking."""
-        return {entry.result.model: entry.result for entry in self.entries}
+        """The fit of each model, by its name, in the order of the ranking.
+
+        Where two models share a name the later one is called ``name (2)``.
+        """
+        found: dict[str, FitResult] = {}
+        for entry in self.entries:
+            name = entry.result.model
+            count = sum(known.partition(" (")[0] == name for known in found)
+            found[f"{name} ({count + 1})" if count else name] = entry.result
+        return found
 
     def to_dict(self) -> dict[str, Any]:
         """The comparison in types that JSON knows."""
@@ -75,6 +87,7 @@ class Comparison:
             "residual": self.residual,
             "held_out_count": self.held_out_count,
             "seed": self.seed,
+            "second_lobe": self.second_lobe,
             "ranking": [
                 {"held_out": entry.held_out, "tied": entry.tied}
                 | entry.result.to_dict()
@@ -95,6 +108,7 @@ def compare(
     residual: str | Residual | None = None,
     starts: int = 16,
     seed: int = 0,
+    second_lobe: bool = False,
     on_model: Callable[[str], None] | None = None,
 ) -> Comparison:
     """Fit many models to one measurement and rank them.
@@ -109,6 +123,8 @@ def compare(
         residual: As for `fit`.
         starts: As for `fit`.
         seed: Seed of the split into seen and held-out directions.
+        second_lobe: Also try the winner with `ggx_lobe` added, and rank it if the lobe
+            earns its parameters: lower BIC and, beyond noise, lower held-out error.
         on_model: Called with the name of each model before it is fitted.
 
     Returns:
@@ -128,27 +144,48 @@ def compare(
     seen, unseen = split(rows, seed)
 
     options = {"residual": chosen, "starts": starts}
-    fitted = []
-    for model in models or list(MODELS):
+
+    def tried(model: str | AbstractBRDF) -> tuple[FitResult, np.ndarray]:
         if on_model:
             on_model(model if isinstance(model, str) else registry_name(model))
         result = fit(model, samples, **options)
         blind = fit(model, samples.take(seen), **options)
         errors = misfit(blind.brdf, samples.take(unseen), chosen)
-        squares = np.nanmean(errors**2, axis=1)  # of each direction, over its channels
-        fitted.append((result, squares))
-    fitted.sort(key=lambda pair: float(np.mean(pair[1])))
+        # the square of each direction, over its channels
+        return result, np.nanmean(errors**2, axis=1)
+
+    fitted = [tried(model) for model in models or list(MODELS)]
+    fitted.sort(key=_rms)
+    told = ""
+    if second_lobe:
+        winner = fitted[0]
+        richer = tried(f"{winner[0].model}+{LOBE}")
+        earned = richer[0].bic < winner[0].bic and not _tied(winner[1], richer[1])
+        if earned:
+            fitted.insert(0, richer)
+        earns = "earns" if earned else "does not earn"
+        told = (
+            f"A second lobe on {winner[0].model} {earns} its parameters: the held-out "
+            f"error goes from {_rms(winner):.4g} to {_rms(richer):.4g}, and BIC by "
+            f"{richer[0].bic - winner[0].bic:+.4g}."
+        )
     best = fitted[0][1]
     return Comparison(
         entries=tuple(
-            Entry(result, float(np.sqrt(np.mean(squares))), _tied(squares, best))
+            Entry(result, _rms((result, squares)), _tied(squares, best))
             for result, squares in fitted
         ),
         residual=chosen.name,
         held_out_count=len(unseen),
         seed=seed,
         data=samples.name,
+        second_lobe=told,
     )
+
+
+def _rms(tried: tuple[FitResult, np.ndarray]) -> float:
+    """Root mean square over the held-out directions, by which models are ranked."""
+    return float(np.sqrt(np.mean(tried[1])))
 
 
 def split(rows: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray]:

@@ -11,16 +11,26 @@ the data. Two uses of the same rows:
   block by block into the Gram matrix without ever being stored.
 """
 
+import dataclasses
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from brdffit.fit.basis import Problem, local, over_blocks, rows
+from brdffit import numerics
+from brdffit.fit.basis import (
+    Problem,
+    local,
+    mixed,
+    over_blocks,
+    rows,
+    transform_in,
+)
 from brdffit.fit.blocks import Blocks
 from brdffit.fit.quadratic import minimise_in_box, solve_positive
-from brdffit.fit.residual import Residual
+from brdffit.fit.transforms import to_natural
 
 
 class NormalEquations(eqx.Module):
@@ -39,19 +49,6 @@ class NormalEquations(eqx.Module):
 
 def _gram(rows: Array) -> Array:
     return rows @ jnp.swapaxes(rows, -1, -2)
-
-
-def _transform(residual: Residual, block: Blocks):
-    """The transform of a residual on values ``(channel, place)`` of a block."""
-    cosines = jnp.asarray(block.cos_i)[None], jnp.asarray(block.cos_o)[None]
-    return lambda value: residual.transform(value, *cosines)
-
-
-def _mixed(linear: Array, basis: Array) -> Array:
-    """``C + sum of a_j B_j`` over the last but one axis, for each channel."""
-    ones = jnp.ones((linear.shape[0], 1))
-    combination = jnp.concatenate([ones, linear], axis=1).astype(basis.dtype)
-    return jnp.einsum("cj,c...jp->c...p", combination, basis)
 
 
 def project(problem: Problem, x: Array, derivatives: bool = True):
@@ -83,14 +80,48 @@ def project(problem: Problem, x: Array, derivatives: bool = True):
         own = [np.append(np.arange(count), count + c) for c in range(channels)]
         gram = jnp.stack([gram[0][np.ix_(i, i)] for i in own])
 
-    bounds = layout.channel_places(layout.linear)
-    parts, linear = jax.vmap(
-        lambda g, low, high: _eliminate(g, low, high, q, m, derivatives)
-    )(gram, problem.lower[bounds], problem.upper[bounds])
+    places = layout.channel_places(layout.linear)
     eps = 8 * jnp.finfo(problem.blocks.wi.dtype).eps
     energy = jnp.sum(gram[:, -1, -1])
+    gram += jax.vmap(lambda at: _expected(problem, at, gram.shape[-1]))(places)
+    parts, linear = jax.vmap(
+        lambda g, low, high: _eliminate(g, low, high, q, m, derivatives)
+    )(gram, problem.lower[places], problem.upper[places])
     whole = _assemble(parts, local(problem), x.shape[0], eps * energy, eps**2 * energy)
-    return whole, linear
+    return _with_priors(problem, whole, x, problem.nonlinear_places), linear
+
+
+def _expected(problem: Problem, places: Array, size: int) -> Array:
+    """Gram matrix of the priors of one channel's linear parameters, as observations."""
+    weight, mean = problem.prior_weight[places], problem.prior_mean[places]
+    rows = (
+        jnp.zeros((len(places), size))
+        .at[:, 1 : 1 + len(places)]
+        .set(jnp.eye(len(places)))
+    )
+    rows = rows.at[:, -1].set(mean)
+    return (rows * weight[:, None]).T @ rows
+
+
+def _with_priors(
+    problem: Problem, equations: NormalEquations, x: Array, places: np.ndarray
+) -> NormalEquations:
+    """The equations with what priors of the parameters at ``places`` add."""
+    if not places.size:
+        return equations
+    natural, slope = jax.jvp(
+        lambda x: to_natural(problem.layout, x, tuple(places.tolist())),
+        (x,),
+        (jnp.ones_like(x),),
+    )
+    weight = problem.prior_weight[places]
+    away = natural - problem.prior_mean[places]
+    return dataclasses.replace(
+        equations,
+        cost=equations.cost + jnp.sum(weight * away**2) / 2,
+        gradient=equations.gradient + weight * away * slope,
+        hessian=equations.hessian + jnp.diag(weight * slope**2),
+    )
 
 
 def _eliminate(gram, lower, upper, q: int, m: int, derivatives: bool):
@@ -141,24 +172,46 @@ def stream(problem: Problem, x: Array) -> NormalEquations:
         found = rows(problem, x[problem.nonlinear_places], block, True)
         found = jnp.broadcast_to(found, (layout.channels, *found.shape[1:]))
         found = found.reshape(layout.channels, 1 + m, 1 + q, -1)
-        mixed = _mixed(linear, found)
+        value = mixed(linear, found)
 
-        transform = _transform(problem.residual, block)
-        predicted = mixed[:, 0]
+        transform = transform_in(block, problem.residual)
+        predicted = value[:, 0]
         compared, slope = jax.jvp(transform, (predicted,), (jnp.ones_like(predicted),))
         error = compared - block.target
-        jacobian = jnp.concatenate([found[:, 0, 1:], mixed[:, 1:]], axis=1)
+        jacobian = jnp.concatenate([found[:, 0, 1:], value[:, 1:]], axis=1)
         local = jnp.concatenate([jacobian * slope[:, None], error[:, None]], axis=1)
         magnitude = jnp.sum((slope * predicted * block.scale) ** 2)
-        return _gram(local * block.scale[:, None]), magnitude
+        weight, cost = _lost(problem, block, error)
+        return _gram(local * (block.scale * weight)[:, None]), cost, magnitude
 
-    start = jnp.zeros((layout.channels, size, size), jnp.float64), jnp.zeros(())
-    gram, magnitude = over_blocks(problem, add, start)
-    parts = gram[:, -1, -1] / 2, gram[:, :-1, -1], gram[:, :-1, :-1]
+    matrix = jnp.zeros((layout.channels, size, size), jnp.float64)
+    start = matrix, jnp.zeros(layout.channels), jnp.zeros(())
+    gram, cost, magnitude = over_blocks(problem, add, start)
+    if problem.loss is None:
+        cost = gram[:, -1, -1] / 2
     places = layout.channel_places(layout.linear + layout.nonlinear)
     eps = 8 * jnp.finfo(problem.blocks.wi.dtype).eps
     floor = eps**2 * magnitude
-    return _assemble(parts, places, x.shape[0], eps * jnp.sum(parts[0]) + floor, floor)
+    whole = _assemble(
+        (cost, gram[:, :-1, -1], gram[:, :-1, :-1]),
+        places,
+        x.shape[0],
+        eps * jnp.sum(cost) + floor,
+        floor,
+    )
+    return _with_priors(problem, whole, x, np.arange(x.shape[0]))
+
+
+def _lost(problem: Problem, block: Blocks, error: Array) -> tuple[Array, Array]:
+    """Weights that a loss gives to errors ``(channel, place)``, and its costs."""
+    if problem.loss is None:
+        return jnp.ones((), error.dtype), jnp.zeros(error.shape[0])
+    share = jnp.where(block.scale > 0, 1 if block.share is None else block.share, 0)
+    precision = jnp.where(share > 0, block.scale / jnp.where(share > 0, share, 1), 0)
+    spread = problem.spread.astype(error.dtype)
+    square = (error * precision / spread) ** 2
+    cost = jnp.sum(share**2 * problem.loss.rho(square), axis=1) * spread**2 / 2
+    return numerics.sqrt(problem.loss.weight(square)), cost
 
 
 def _assemble(parts, places: np.ndarray, size: int, rounding, floor) -> NormalEquations:
@@ -173,37 +226,3 @@ def _assemble(parts, places: np.ndarray, size: int, rounding, floor) -> NormalEq
         rounding=rounding,
         floor=floor,
     )
-
-
-def costs(problem: Problem, x: Array, residuals: tuple[Residual, ...]) -> Array:
-    """How far off the parameters are under each residual.
-
-    Values that a residual cannot compare are left out of its sums.
-
-    Returns:
-        ``(residual, 3)``: half the weighted sum of squares, the unweighted sum of
-        squares, and the number of values in it.
-    """
-    layout = problem.layout
-    linear = x[layout.channel_places(layout.linear)]
-
-    def add(block):
-        basis = rows(problem, x[problem.nonlinear_places], block, False)
-        basis = jnp.broadcast_to(basis, (layout.channels, *basis.shape[1:]))
-        predicted = _mixed(linear, basis)
-        base = block.lean if block.known_sigma else block.scale
-        found = []
-        for residual in residuals:
-            transform = _transform(residual, block)
-            one = jnp.ones_like(block.value)
-            target, slope = jax.jvp(transform, (block.value,), (one,))
-            use = jnp.broadcast_to(base > 0, predicted.shape) & (slope > 0)
-            if residual.positive:
-                use &= block.value > 0
-            error = jnp.where(use, transform(predicted) - target, 0)
-            scale = base / jnp.where(use, slope, 1) if block.known_sigma else base
-            tally = (jnp.sum((error * scale) ** 2) / 2, jnp.sum(error**2), jnp.sum(use))
-            found.append(jnp.stack(tally))
-        return jnp.stack(found)
-
-    return over_blocks(problem, add, jnp.zeros((len(residuals), 3), jnp.float64))

@@ -6,6 +6,7 @@ are. The maps are monotone, so an interval stays an interval.
 """
 
 import dataclasses
+from collections.abc import Sequence
 from functools import cached_property
 
 import equinox as eqx
@@ -15,7 +16,9 @@ import numpy as np
 from jaxtyping import Array
 
 from brdffit.models import AbstractBRDF
-from brdffit.parameters import Parameter, parameters, replace, values
+from brdffit.names import look_up
+from brdffit.parameters import Parameter, parameters, registry_name, replace, values
+from brdffit.per_channel import PerChannel
 
 
 @dataclasses.dataclass(frozen=True)
@@ -31,11 +34,34 @@ class Layout:
     separate: bool  # the basis functions differ between channels
 
     @classmethod
-    def of(cls, brdf: AbstractBRDF) -> "Layout":
-        """Layout of the parameters of a model, for its own number of channels."""
+    def of(
+        cls,
+        brdf: AbstractBRDF,
+        tied: Sequence[str] = (),
+        per_channel: Sequence[str] = (),
+    ) -> "Layout":
+        """Layout of the parameters of a model, for its own number of channels.
+
+        Args:
+            brdf: The model.
+            tied: Spectral parameters that are to have one value in all channels.
+            per_channel: Shared parameters that are to have a value in each.
+
+        Raises:
+            ValueError: A name is unknown, or the parameter is so already.
+        """
         known = parameters(brdf)
         current = values(brdf)
         sizes = [current[name].shape[0] for name, p in known.items() if p.spectral]
+        for names, spectral in ((tied, False), (per_channel, True)):
+            for name in names:
+                if look_up(known, name, "Parameter").spectral == spectral:
+                    raise ValueError(
+                        f"Parameter `{name}` of `{registry_name(brdf)}` has "
+                        f"{'a value in each channel' if spectral else 'one value'} "
+                        "already."
+                    )
+                known[name] = dataclasses.replace(known[name], spectral=spectral)
         shared_leaves = {id(current[name]) for name in known}
         extra = [a for a in jax.tree.leaves(brdf) if id(a) not in shared_leaves]
         nonlinear = [p for p in known.values() if p.spectral and not p.linear]
@@ -123,24 +149,40 @@ def bounds(layout: Layout) -> tuple[np.ndarray, np.ndarray]:
     )
 
 
-def pack(brdf: AbstractBRDF) -> np.ndarray:
-    """Parameter values of a model as one vector."""
-    return np.concatenate([np.atleast_1d(v) for v in values(brdf).values()]).astype(
-        float
-    )
+def pack(layout: Layout, brdf: AbstractBRDF) -> np.ndarray:
+    """Parameter values of a model as one vector; of tied ones the mean."""
+    current = values(brdf)
+    return np.concatenate(
+        [
+            np.broadcast_to(current[name], layout.channels)
+            if known.spectral
+            else np.mean(current[name], keepdims=True).ravel()
+            for name, known in layout.entries
+        ]
+    ).astype(float)
 
 
 def unpack(layout: Layout, brdf: AbstractBRDF, natural: Array) -> AbstractBRDF:
     """The model with its parameters taken from one vector."""
-    return replace(
-        brdf,
-        {
-            name: natural[np.array(places)] if known.spectral else natural[places[0]]
-            for (name, known), places in zip(
-                layout.entries, layout.places.values(), strict=True
-            )
-        },
-    )
+    found = {
+        name: natural[np.array(places)] if known.spectral else natural[places[0]]
+        for (name, known), places in zip(
+            layout.entries, layout.places.values(), strict=True
+        )
+    }
+    current = values(brdf)
+    if all(found[name].ndim <= current[name].ndim for name in found):
+        shaped = {n: jnp.broadcast_to(v, current[n].shape) for n, v in found.items()}
+        return replace(brdf, shaped)
+    parts = []
+    for c in range(layout.channels):
+        part = jax.tree.map(lambda leaf, c=c: leaf[c], channel_models(brdf))
+        own = {n: v[c] if v.ndim else v for n, v in found.items()}
+        shapes = {n: v.shape for n, v in values(part).items()}
+        parts.append(
+            replace(part, {n: jnp.broadcast_to(v, shapes[n]) for n, v in own.items()})
+        )
+    return PerChannel(tuple(parts))
 
 
 def channel_models(brdf: AbstractBRDF) -> AbstractBRDF:

@@ -4,6 +4,7 @@ from brdffit.plots.album import album as album
 from brdffit.plots.coverage import coverage_figure as coverage_figure
 from brdffit.plots.lobe import lobe_figure as lobe_figure, plot_lobe as plot_lobe
 from brdffit.plots.plane import Plane as Plane, planes as planes
+from brdffit.plots.profile import profile_figure as profile_figure
 from brdffit.plots.ranking import (
     plot_errors as plot_errors,
     plot_table as plot_table,

@@ -29,3 +29,11 @@ def test_affine_is_declared_where_it_holds(name):
     )
     affine = bool(jnp.isclose(middle, (low + high) / 2, rtol=1e-5))
     assert affine == RESIDUALS[name].affine
+
+
+@pytest.mark.parametrize("name", RESIDUALS)
+def test_the_inverse_gives_the_value_back(name):
+    value, cos_i, cos_o = jnp.array([0.01, 0.3, 7.0]), jnp.array(0.8), jnp.array(0.5)
+    residual = RESIDUALS[name]
+    compared = residual.transform(value, cos_i, cos_o)
+    np.testing.assert_allclose(residual.inverse(compared, cos_i, cos_o), value, 2e-5)

@@ -9,7 +9,7 @@ import pytest
 
 from brdffit.fit import structure
 from brdffit.fit.blocks import blocks, usable
-from brdffit.fit.fit import bounded_problem
+from brdffit.fit.conditions import bounded_problem
 from brdffit.fit.residual import RESIDUALS
 from brdffit.fit.transforms import Layout, bounds, pack, to_natural, to_solver, unpack
 from brdffit.models import MODELS
@@ -136,7 +136,7 @@ def test_layout_of_a_sum_names_the_parts():
     layout = Layout.of(MODELS["sum"]())
     assert layout.channels == CHANNELS
     assert all("." in label for label in layout.labels)
-    assert len(layout.labels) == len(pack(MODELS["sum"]()))
+    assert len(layout.labels) == len(pack(layout, MODELS["sum"]()))
 
 
 def test_values_of_no_use_change_nothing(samples):

@@ -1,0 +1,42 @@
+"""What a solution costs under every residual."""
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array
+
+from brdffit.fit.basis import Problem, mixed, over_blocks, rows, transform_in
+from brdffit.fit.residual import Residual
+
+
+def costs(problem: Problem, x: Array, residuals: tuple[Residual, ...]) -> Array:
+    """How far off the parameters are under each residual.
+
+    Values that a residual cannot compare are left out of its sums.
+
+    Returns:
+        ``(residual, 3)``: half the weighted sum of squares, the unweighted sum of
+        squares, and the number of values in it.
+    """
+    layout = problem.layout
+    linear = x[layout.channel_places(layout.linear)]
+
+    def add(block):
+        basis = rows(problem, x[problem.nonlinear_places], block, False)
+        basis = jnp.broadcast_to(basis, (layout.channels, *basis.shape[1:]))
+        predicted = mixed(linear, basis)
+        base = block.lean if block.known_sigma else block.scale
+        found = []
+        for residual in residuals:
+            transform = transform_in(block, residual)
+            one = jnp.ones_like(block.value)
+            target, slope = jax.jvp(transform, (block.value,), (one,))
+            use = jnp.broadcast_to(base > 0, predicted.shape) & (slope > 0)
+            if residual.positive:
+                use &= block.value > 0
+            error = jnp.where(use, transform(predicted) - target, 0)
+            scale = base / jnp.where(use, slope, 1) if block.known_sigma else base
+            tally = (jnp.sum((error * scale) ** 2) / 2, jnp.sum(error**2), jnp.sum(use))
+            found.append(jnp.stack(tally))
+        return jnp.stack(found)
+
+    return over_blocks(problem, add, jnp.zeros((len(residuals), 3), jnp.float64))
