@@ -16,8 +16,9 @@ The package reads from top to bottom; a module imports only from lines above its
     scene                  camera, shapes, lights
     render                 geometry pass, shading, images
     readers, writers       one file format per file
-    survey                 what a file holds, before anything is fitted to it
+    survey, conversion     what a file holds; a measurement in another format
     fit                    residual -> solver -> result
+    exports                a BRDF as a material of a renderer, with its error
     plots                  one kind of figure per file
     cli                    the command line, one command per file
 
@@ -32,6 +33,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
     from brdffit.cache import enable_compilation_cache as enable_compilation_cache
+    from brdffit.exports import export as export
     from brdffit.fit import FitResult as FitResult, fit as fit
     from brdffit.fit.bootstrap import bootstrap as bootstrap
     from brdffit.fit.least_squares import least_squares as least_squares
@@ -68,6 +70,7 @@ _HOME = {
     "compare": "fit.select",
     "directional_albedo": "albedo",
     "enable_compilation_cache": "cache",
+    "export": "exports",
     "fit": "fit",
     "least_squares": "fit.least_squares",
     "lit_sphere": "scene",

@@ -15,6 +15,8 @@ Source:
 import numpy as np
 from jaxtyping import Float
 
+from brdffit.types import Index, Vectors
+
 SHAPE = (90, 90, 180)  # cells in theta_h, theta_d, phi_d
 COUNT = 90 * 90 * 180
 
@@ -49,3 +51,28 @@ def cells() -> tuple[Directions, Directions, Float[np.ndarray, " cell"]]:
     size_phi = np.diff(edges[2]) * 2 * np.pi
     size = size_h[:, None, None] * size_d[:, None] * size_phi
     return wi.reshape(-1, 3), wo.reshape(-1, 3), size.reshape(-1)
+
+
+def cell_of(wi: Vectors, wo: Vectors) -> Index:
+    """Place of the cell that each pair of directions falls into, in either order."""
+    wi, wo = np.asarray(wi, float), np.asarray(wo, float)
+    half = wi + wo
+    half = half / np.linalg.norm(half, axis=1, keepdims=True)
+    sin_h = np.hypot(half[:, 0], half[:, 1])
+    theta_h = np.arctan2(sin_h, half[:, 2])
+    cos_phi = np.divide(half[:, 0], sin_h, out=np.ones(len(wi)), where=sin_h > 0)
+    sin_phi = np.divide(half[:, 1], sin_h, out=np.zeros(len(wi)), where=sin_h > 0)
+    # The light in the frame of the half vector: turned to azimuth 0, then upright.
+    along = wi[:, 0] * cos_phi + wi[:, 1] * sin_phi
+    y = wi[:, 1] * cos_phi - wi[:, 0] * sin_phi
+    x = along * half[:, 2] - wi[:, 2] * sin_h
+    theta_d = np.arctan2(np.hypot(x, y), along * sin_h + wi[:, 2] * half[:, 2])
+    phi_d = np.arctan2(y, x) % np.pi
+    shares = np.sqrt(theta_h * 2 / np.pi), theta_d * 2 / np.pi, phi_d / np.pi
+    return np.ravel_multi_index(
+        tuple(
+            np.clip((share * count).astype(int), 0, count - 1)
+            for share, count in zip(shares, SHAPE, strict=True)
+        ),
+        SHAPE,
+    )

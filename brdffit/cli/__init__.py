@@ -13,7 +13,9 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError, Parameter
 
 from brdffit.cli.compare import compare
+from brdffit.cli.convert import convert
 from brdffit.cli.demo import demo
+from brdffit.cli.export import export
 from brdffit.cli.fit import fit
 from brdffit.cli.info import info
 from brdffit.cli.models import models
@@ -36,7 +38,8 @@ app = App(
     help_format="plaintext",
     default_parameter=Parameter(negative=(), show_default=False),
 )
-for command in (demo, models, info, fit, compare, simulate, render):
+COMMANDS = (demo, models, info, fit, compare, simulate, render, convert, export)
+for command in COMMANDS:
     app.command(command)
 
 

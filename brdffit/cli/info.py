@@ -43,7 +43,8 @@ def info(
             require_writable(out)
         step("looking at directions")
         anywhere = None if channels else getattr(reader, "evaluate", None)
-        facts = summary(measurement, anywhere and partial(anywhere, data))
+        folded = getattr(reader, "RECIPROCAL", False)
+        facts = summary(measurement, anywhere and partial(anywhere, data), folded)
         written = []
         if out:
             from brdffit.plots import coverage_figure, save
@@ -55,7 +56,7 @@ def info(
         content = {"format": kind} | facts.to_dict()
         console.print_json(content | {"files": [str(path) for path in written]})
     else:
-        print_summary(title(reader), facts, getattr(reader, "RECIPROCAL", False))
+        print_summary(title(reader), facts, folded)
         console.print_written(written)
 
 

@@ -60,6 +60,13 @@ def saved_or_named(
     return adjusted(from_name(source, wanted), given)
 
 
+def saved_channels(source: str) -> tuple[str, ...]:
+    """Names of the channels of a saved result; none for the name of a model."""
+    if Path(source).suffix == ".json" or Path(source).is_file():
+        return load_result(source).channels
+    return ()
+
+
 def adjusted(brdf: AbstractBRDF, given: Mapping[str, Sequence[float]]) -> AbstractBRDF:
     """A model with some of its parameters changed.
 

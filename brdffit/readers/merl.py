@@ -14,6 +14,7 @@ import numpy as np
 from brdffit import half_difference
 from brdffit.readers import validity
 from brdffit.samples import Measurement
+from brdffit.types import Values, Vectors
 
 DESCRIPTION = "MERL binary: isotropic material on half and difference angles"
 SUFFIXES = (".binary",)
@@ -52,3 +53,20 @@ def load(path: Path | str) -> Measurement:
         channels=("R", "G", "B"),
         name=path.stem,
     )
+
+
+def evaluate(path: Path | str, wi: Vectors, wo: Vectors) -> Values:
+    """Reflectance ``f_r (N, 3)`` of the cells that directions fall into.
+
+    0 where a direction lies at or below the horizon; NaN where there is no data, as in
+    cells whose centre lies below it.
+
+    Raises:
+        ValueError: The file has another size than its header says, or no data.
+        OSError: The file cannot be read.
+    """
+    data = load(path)
+    f_r = np.where(np.asarray(data.mask), data.f_r, np.nan)
+    seen = (wi[:, 2] > 0) & (wo[:, 2] > 0)
+    cells = half_difference.cell_of(wi, wo)
+    return np.where(seen[:, None], f_r[cells], 0.0)

@@ -59,12 +59,18 @@ class Summary:
         }
 
 
-def summary(data: Measurement | Samples, evaluate: Evaluate | None = None) -> Summary:
+def summary(
+    data: Measurement | Samples,
+    evaluate: Evaluate | None = None,
+    folded: bool = False,
+) -> Summary:
     """Count and measure what data hold.
 
     Args:
         data: What was read.
         evaluate: As for `reciprocity`.
+        folded: Whether both orders of a pair are one value in the format, so that
+            nothing can be said of reciprocity.
 
     Raises:
         ValueError: They have no values, as those of a scene that was not rendered.
@@ -99,7 +105,7 @@ def summary(data: Measurement | Samples, evaluate: Evaluate | None = None) -> Su
         azimuths=max(len(np.unique(np.round(azimuth[slanted]) % 360)), 1),
         sigma=samples.sigma is not None,
         solid_angle=samples.solid_angle is not None,
-        reciprocity=reciprocity(data, evaluate),
+        reciprocity=None if folded else reciprocity(data, evaluate),
     )
 
 

@@ -43,7 +43,7 @@ def save(measurement: Measurement, path: Path | str) -> None:
 def on_grid(measurement: Measurement) -> bool:
     """Whether the directions are those of the cells, within single precision."""
     wi, wo, _ = half_difference.cells()
-    return bool(
+    return measurement.wi.shape == wi.shape and bool(
         np.allclose(measurement.wi, wi, rtol=0, atol=1e-6)
         and np.allclose(measurement.wo, wo, rtol=0, atol=1e-6)
     )
