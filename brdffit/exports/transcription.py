@@ -187,5 +187,6 @@ SHAPES: Mapping[str, Callable[[list[np.ndarray], Mapping[str, Any]], np.ndarray]
     "reshape": lambda x, o: x[0].reshape(o["new_sizes"]),
     "transpose": lambda x, o: x[0].transpose(o["permutation"]),
     "concatenate": lambda x, o: np.concatenate(x, axis=o["dimension"]),
+    "stack": lambda x, o: np.stack(x, axis=o["axis"]),
     "reduce_sum": lambda x, o: np.asarray(x[0].sum(axis=tuple(o["axes"])), object),
 }
