@@ -4,6 +4,7 @@ The package reads from top to bottom; a module imports only from lines above its
 
     types, numerics        shapes; functions with finite gradients
     files, names           files whole or absent; names looked up once
+    download               a download that goes on where it stopped
     compiled, cache        compiler options; compiled programs, kept on disk
     geometry, parameters   directions; bounds, units and symbols
     half_difference        the grid of angles of MERL files
@@ -17,6 +18,7 @@ The package reads from top to bottom; a module imports only from lines above its
     render                 geometry pass, shading, images
     readers, writers       one file format per file
     survey, conversion     what a file holds; a measurement in another format
+    databases              public databases, fetched by name
     fit                    residual -> solver -> result
     exports                a BRDF as a material of a renderer, with its error
     plots                  one kind of figure per file
@@ -33,6 +35,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
     from brdffit.cache import enable_compilation_cache as enable_compilation_cache
+    from brdffit.databases import fetch as fetch
     from brdffit.exports import export as export
     from brdffit.fit import FitResult as FitResult, fit as fit
     from brdffit.fit.bootstrap import bootstrap as bootstrap
@@ -71,6 +74,7 @@ _HOME = {
     "directional_albedo": "albedo",
     "enable_compilation_cache": "cache",
     "export": "exports",
+    "fetch": "databases",
     "fit": "fit",
     "least_squares": "fit.least_squares",
     "lit_sphere": "scene",

@@ -16,6 +16,7 @@ from brdffit.cli.compare import compare
 from brdffit.cli.convert import convert
 from brdffit.cli.demo import demo
 from brdffit.cli.export import export
+from brdffit.cli.fetch import fetch
 from brdffit.cli.fit import fit
 from brdffit.cli.info import info
 from brdffit.cli.models import models
@@ -38,7 +39,7 @@ app = App(
     help_format="plaintext",
     default_parameter=Parameter(negative=(), show_default=False),
 )
-COMMANDS = (demo, models, info, fit, compare, simulate, render, convert, export)
+COMMANDS = (demo, models, info, fit, compare, simulate, render, convert, export, fetch)
 for command in COMMANDS:
     app.command(command)
 

@@ -72,3 +72,30 @@ def progress(total: int) -> Iterator[Callable[[str], None]]:
 
     with bar:
         yield step
+
+
+@contextlib.contextmanager
+def transfer(name: str) -> Iterator[Callable[[int, int | None], None]]:
+    """A bar of bytes on a terminal, nothing elsewhere.
+
+    Args:
+        name: What is transferred.
+
+    Yields:
+        A function to call with the bytes that are there and the number of all.
+    """
+    from rich import progress as rich
+
+    bar = rich.Progress(
+        rich.TextColumn("{task.description}", markup=False),
+        rich.BarColumn(),
+        rich.DownloadColumn(),
+        rich.TransferSpeedColumn(),
+        rich.TimeRemainingColumn(),
+        console=Console(stderr=True),
+        transient=True,
+        disable=not sys.stderr.isatty(),
+    )
+    task = bar.add_task(name, total=None)
+    with bar:
+        yield lambda done, total: bar.update(task, completed=done, total=total)
