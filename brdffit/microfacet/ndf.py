@@ -94,7 +94,7 @@ def blinn(wh: Direction, exponent: Scalar) -> Scalar:
 
     Source:
         J. F. Blinn, "Models of Light Reflection for Computer Synthesized Pictures",
-        SIGGRAPH 1977; normalised in B. Walter et al., EGSR 2007, eq. 30.
+        SIGGRAPH 1977; normalised in B. Walter et al., EGSR 2007.
     """
     lobe = jnp.exp(-0.5 * exponent * jnp.log1p(tan_squared(wh)))
     return (exponent + 2) / (2 * jnp.pi) * lobe

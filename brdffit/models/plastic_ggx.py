@@ -29,7 +29,7 @@ class PlasticGGX(AbstractBRDF):
         interface were smooth. Mostly that is too much: for $k_d = 1$, $\alpha = 0.3$,
         $\eta = 1.5$ the albedo is 0.996 at normal incidence and 0.20 towards grazing.
         Where it is too little, albedo exceeds 1 by at most 0.07 %, near 50 degrees at
-        $\alpha = 0.1$, $\eta = 1.3$. A base lit and seen through the rough interface,
+        $\alpha = 0.1$, $\eta = 1.25$. A base lit and seen through the rough interface,
         as Mitsuba tabulates it, is darker at normal incidence (by 5 % for
         $\alpha = 0.15$, 17 % for $\alpha = 0.4$) and brighter towards grazing.
 

@@ -1,6 +1,6 @@
 """Two reflectance models added."""
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import equinox as eqx
 
@@ -8,6 +8,22 @@ from brdffit.models.base import AbstractBRDF
 from brdffit.models.ggx_lobe import GGXLobe
 from brdffit.models.lambert import Lambert
 from brdffit.types import Direction, Spectrum
+
+
+class OfBothParts:
+    """A fact that holds for a sum when it does for both parts.
+
+    Asked of the class, it is that of the default pair.
+    """
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        """Remember which fact."""
+        self.name = name
+
+    def __get__(self, pair: "Sum | None", owner: type) -> bool:
+        """Ask the parts."""
+        parts = (Lambert, GGXLobe) if pair is None else (pair.first, pair.second)
+        return all(getattr(part, self.name) for part in parts)
 
 
 class Sum(AbstractBRDF):
@@ -19,9 +35,11 @@ class Sum(AbstractBRDF):
     in turn.
 
     Range:
-        As the parts. The sum is reciprocal when both are (the default pair is), and
-        conserves energy only where the two albedos add to at most 1: the default pair
-        does not at grazing angles, where the gloss reflects all.
+        As the parts. A sum is reciprocal when both are, and isotropic when both are
+        (the default pair is both). No sum is declared to conserve energy: albedos add,
+        and parts that stay within 1 alone say nothing of how much they leave to each
+        other. The default pair exceeds 1 at grazing angles, where the gloss reflects
+        all.
 
     Source:
         One lobe beside another as fitted to measured reflectance by A. Ngan, F. Durand
@@ -35,7 +53,8 @@ class Sum(AbstractBRDF):
     first: AbstractBRDF = eqx.field(default_factory=Lambert)
     second: AbstractBRDF = eqx.field(default_factory=GGXLobe)
 
-    reciprocal: ClassVar[bool] = True
+    reciprocal: ClassVar[Any] = OfBothParts()
+    isotropic: ClassVar[Any] = OfBothParts()
     energy_conserving: ClassVar[bool] = False
 
     def __check_init__(self) -> None:

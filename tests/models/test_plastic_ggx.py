@@ -1,9 +1,12 @@
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from brdffit.albedo import directional_albedo
 from brdffit.microfacet import fresnel
 from brdffit.models import PlasticGGX
+from tests.sampling import incident
 
 WI, WO = jnp.array([0.6, 0.0, 0.8]), jnp.array([0.3, 0.4, 0.866025])
 
@@ -40,3 +43,17 @@ def test_interreflection_saturates_colours():
     value = PlasticGGX(diffuse=[0.9, 0.3, 0.0], alpha=0.05, eta=1.5)(WI, WO)
     base = value - value[2]
     assert base[0] / base[1] > 1.5 * 0.9 / 0.3
+
+
+def test_energy_is_exceeded_by_no_more_than_stated():
+    degrees, alphas, etas = (30, 50, 70), (0.05, 0.1, 0.2), (1.1, 1.25, 1.5)
+    wi = jnp.asarray([incident(a) for a in degrees], jnp.float32)
+
+    @jax.jit
+    def reflected(alpha, eta):
+        white = PlasticGGX(diffuse=[1.0], alpha=alpha, eta=eta)
+        return jax.lax.map(lambda w: directional_albedo(white, w)[0], wi)
+
+    found = np.array([[reflected(alpha, eta) for eta in etas] for alpha in alphas])
+    assert np.unravel_index(found.argmax(), found.shape) == (1, 1, 1)
+    assert np.isclose(found.max(), 1.00073, atol=1e-5)

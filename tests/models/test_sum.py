@@ -1,9 +1,12 @@
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from brdffit.models import MODELS, GGXLobe, Lambert, Sum
+from brdffit.albedo import directional_albedo
+from brdffit.models import MODELS, Banks, GGXLobe, Lambert, PhongOriginal, Sum
 from brdffit.parameters import parameters, replace
+from tests.sampling import incident, random_directions
 
 WI, WO = jnp.array([0.6, 0.0, 0.8]), jnp.array([-0.6, 0.0, 0.8])
 
@@ -40,3 +43,38 @@ def test_parts_must_have_the_same_channels():
     sentence = "same number of channels, but `first` has 1 and `second` 3"
     with pytest.raises(ValueError, match=sentence):
         Lambert(albedo=[0.5]) + GGXLobe(f0=[0.1, 0.2, 0.3])
+
+
+@pytest.mark.parametrize(
+    ("brdf", "reciprocal", "isotropic"),
+    [
+        (Sum(), True, True),
+        (Lambert() + PhongOriginal(), False, True),
+        (Banks() + GGXLobe(), True, False),
+        (PhongOriginal() + (Lambert() + Banks()), False, False),
+    ],
+    ids=["default", "original Phong", "fibres", "nested"],
+)
+def test_facts_are_those_of_the_parts(brdf, reciprocal, isotropic):
+    """What is declared of each sum holds, and what is not declared does not."""
+    assert (brdf.reciprocal, brdf.isotropic) == (reciprocal, isotropic)
+    assert not brdf.energy_conserving
+    rng = np.random.default_rng(0)
+    wi, wo = random_directions(rng, 200), random_directions(rng, 200)
+    turn = jnp.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    values = jax.jit(jax.vmap(brdf))
+    there = values(wi, wo)
+    assert np.allclose(there, values(wo, wi), rtol=1e-6) == reciprocal
+    assert np.allclose(there, values(wi @ turn, wo @ turn), rtol=1e-4) == isotropic
+
+
+def test_facts_of_the_class_are_those_of_the_default_pair():
+    assert (Sum.reciprocal, Sum.isotropic, Sum.energy_conserving) == (True, True, False)
+
+
+def test_parts_that_conserve_energy_may_not_do_so_together():
+    both = Lambert(albedo=[1.0]) + GGXLobe(f0=[0.0], alpha=0.3)
+    assert both.first.energy_conserving
+    assert both.second.energy_conserving
+    wi = jnp.asarray(incident(80), jnp.float32)
+    assert jax.jit(directional_albedo)(both, wi)[0] > 1.05
