@@ -1,11 +1,16 @@
 """Which way does a field of tangents stretch the highlight of an anisotropic surface?
 
 Three models with grooves or fibres along the tangent, three fields of tangents on a
-sphere under one light. The highlight is what exceeds half of the brightest pixel; its
-axes are those of its second moments. An isotropic model must not see the field.
+sphere under one light. They should stretch it across the grooves. The highlight is what
+exceeds half of the brightest pixel; its axes are those of its second moments. An
+isotropic model must not see the field.
 """
 
+import jax
+import jax.numpy as jnp
 import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.patches import Circle
 
 from brdffit.geometry import TANGENTS
 from brdffit.models import GGX, Banks, GGXAnisotropic, WardBounded
@@ -18,6 +23,12 @@ from experiments.record import RESULTS, Record, styled
 
 LIGHT = (-0.48, 0.36, 0.8)
 RESOLUTION = 160
+STROKE = 0.07  # half the length of a drawn tangent, in radii of the sphere
+FIELDS = {
+    "linear": "along x",
+    "radial": "away from the viewing axis",
+    "cylindrical": "around y",
+}
 DIFFUSE = [0.12, 0.06, 0.03]
 WIDTHS = {"alpha_x": 0.1, "alpha_y": 0.4}  # along the tangent, across it
 MODELS = {
@@ -44,26 +55,41 @@ def highlight(picture):
     return np.sqrt(sizes[1] / sizes[0]), np.degrees(np.arctan2(y, x)) % 180
 
 
+def strokes(axes, field):
+    """Tangents on a sphere as the camera sees them, where they run across its view."""
+    grid = np.linspace(-0.9, 0.9, 10)
+    x, y = (a.ravel() for a in np.meshgrid(grid, grid))
+    x, y = x[x * x + y * y < 0.85], y[x * x + y * y < 0.85]
+    normals = np.stack([x, y, np.sqrt(1 - x * x - y * y)], axis=1)
+    along = STROKE * np.asarray(jax.vmap(TANGENTS[field])(jnp.asarray(normals)))
+    ends = np.stack([normals - along, normals + along], axis=1)[..., :2]
+    axes.add_collection(LineCollection(ends, colors="black", linewidths=0.8))
+    axes.add_patch(Circle((0, 0), 1, fill=False, linewidth=0.8))
+    axes.set(xlim=(-1.05, 1.05), ylim=(-1.05, 1.05), aspect="equal")
+    axes.axis("off")
+    axes.set_title(f"tangents {field}\n({FIELDS[field]})")
+
+
 @styled
 def chart(pictures, rows):
-    """Models down, fields across."""
-    figure = new_figure(6.4, 7.0)
-    grid = figure.subplots(len(MODELS), len(TANGENTS))
+    """Fields across; the tangents themselves, then one model after another."""
+    figure = new_figure(6.6, 9.0)
+    grid = figure.subplots(1 + len(MODELS), len(TANGENTS))
+    for axes, field in zip(grid[0], TANGENTS, strict=True):
+        strokes(axes, field)
     found = {(row["model"], row["tangents"]): row for row in rows}
-    for axes, (key, picture) in zip(grid.flat, pictures.items(), strict=True):
+    for axes, (key, picture) in zip(grid[1:].flat, pictures.items(), strict=True):
         plot_sphere(axes, picture, 0.9 / float(np.nanmax(picture)))
         row = found[key]
-        axes.set_title(
-            f"{key[0]}, {key[1]}\n{row['axes']:.1f} : 1 at {row['angle_deg']:.0f} deg"
-        )
+        axes.set_title(f"{key[0]}\n{row['axes']:.1f} : 1 at {row['angle_deg']:.0f}°")
     longest = max(rows, key=lambda row: row["axes"])
     figure.suptitle(
-        f"Highlights of one light, up to {longest['axes']:.1f} : 1 "
-        f"({longest['model']}, {longest['tangents']}), turn with the tangents"
+        "Highlights stretch across the tangents, "
+        f"up to {longest['axes']:.1f} : 1 ({longest['model']})"
     )
     figure.supxlabel(
-        "half-brightness region: ratio of its axes, long one from x, "
-        "counter-clockwise; sRGB, each sphere to its brightest pixel",
+        "Numbers: axes of what exceeds half of the brightest pixel, and angle of the\n"
+        "long one from x, counter-clockwise. sRGB, each sphere to its brightest pixel.",
         size=8,
     )
     return figure

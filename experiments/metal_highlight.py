@@ -24,6 +24,8 @@ ANGLES = np.linspace(-119, 59, 1781)  # deg from the mirror direction, away from
 TIMES = (2, 3, 4)  # half-widths from the peak
 LIGHT = (-0.36, 0.48, 0.8)
 RESOLUTION = 192
+EXPOSURE = 4  # times white is the brightest pixel of each sphere
+LABELS = ("GGX", "Beckmann, same alpha", "Beckmann, same half-width")
 SAME_WIDTH = np.sqrt((np.sqrt(2) - 1) / np.log(2))  # of alphas, to first order
 
 
@@ -77,34 +79,40 @@ def facts(lobes):
 @styled
 def chart(groups, tables):
     """Lobes above, spheres below."""
-    figure = new_figure(9.4, 6.0)
+    figure = new_figure(9.4, 6.4)
     above, below = figure.subfigures(2, 1, height_ratios=(2, 1))
-    for axes, (alpha, lobes), rows in zip(
-        above.subplots(1, len(ALPHAS), sharey=True),
-        groups.items(),
-        tables,
-        strict=True,
-    ):
-        for n, (name, lobe) in enumerate(lobes.items()):
+    panels = above.subplots(1, len(ALPHAS), sharey=True)
+    for axes, (alpha, lobes), rows in zip(panels, groups.items(), tables, strict=True):
+        for n, lobe in enumerate(lobes.values()):
             look = {"color": COLOURS[n], "linestyle": DASHES[n]}
-            axes.plot(ANGLES, lobe, label=name.removeprefix("conductor_"), **look)
+            axes.plot(ANGLES, lobe, label=LABELS[n], **look)
         ratio = rows[0]["at_3_widths"] / rows[2]["at_3_widths"]
         axes.set_title(
-            f"alpha {alpha:g}: three half-widths out, equally wide,\n"
-            f"GGX is {ratio:,.0f} times as bright as Beckmann"
+            f"alpha {alpha:g}: three half-widths from the peak GGX\n"
+            f"is {ratio:,.0f} times as bright as Beckmann of its width"
         )
-        axes.set(yscale="log", ylim=(1e-5, 60), xlim=(-100, 60))
+        axes.set(yscale="log", ylim=(1e-5, 2), xlim=(-100, 60))
         axes.set_xlabel("angle from the mirror direction, away from the normal (deg)")
-        axes.legend(fontsize=7, loc="upper left")
-    above.axes[0].set_ylabel("$f_r$ / its largest value (1)")
+    panels[0].set_ylabel("$f_r$ / its largest value, mean of RGB (1)")
+    above.legend(
+        *panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3
+    )
     scene = lit_sphere(RESOLUTION, [LIGHT], np.pi)
     shown = [item for alpha in ALPHAS for item in models(alpha).items()]
     for axes, (name, brdf) in zip(below.subplots(1, 6), shown, strict=True):
         image = render(brdf, scene)
         image[~inside(image)] = np.nan
-        plot_sphere(axes, image, 0.5 / float(np.nanpercentile(image, 96)))
+        plot_sphere(axes, image, EXPOSURE / float(np.nanmax(image)))
         axes.set_title(name.replace("conductor_", "").replace(", ", "\n"), size=8)
-    figure.suptitle(f"{METAL} under one light {INCIDENCE:g} degrees from the normal")
+    below.supxlabel(
+        "Spheres under one light from the upper left, sRGB, each with its brightest "
+        f"pixel at {EXPOSURE} times white",
+        size=8,
+    )
+    figure.suptitle(
+        f"{METAL}: a highlight of GGX ends in a glow, one of Beckmann in black "
+        f"(curves: light at {INCIDENCE:g} degrees)"
+    )
     return figure
 
 

@@ -127,7 +127,7 @@ def edge(exponent):
 @styled
 def curves():
     """Energy, reciprocity and cut-off."""
-    figure = new_figure(10.2, 3.9)
+    figure = new_figure(11.4, 4.1)
     energy, trade, cut = figure.subplots(1, 3)
     models, albedo = matched(SHOWN), {}
     looks = {
@@ -150,15 +150,19 @@ def curves():
     energy.set_xlabel(r"angle of incidence $\theta_i$ (degrees)")
     energy.set_ylabel("directional albedo (1)")
     energy.set_title(
-        f"p = {SHOWN:g}: original above 1\n"
-        f"beyond {beyond:.2f} degrees (p = 10: {early:.1f})"
+        f"Energy, p = {SHOWN:g}: the original sends back more than\n"
+        f"came beyond {beyond:.2f} degrees (p = 10: {early:.1f})"
     )
 
     worst = np.cos(np.radians(80)) / np.cos(np.radians(FIXED))
     trade.set(yscale="log", xlim=(0, 90), xticks=range(0, 91, 15))
     trade.set_xlabel(rf"other angle $\theta$ (degrees), one is {FIXED:g}")
     trade.set_ylabel(rf"$f_r({FIXED:g}°\to\theta)\,/\,f_r(\theta\to{FIXED:g}°)$ (1)")
-    trade.set_title(f"original changes by x {1 / worst:.1f}\nwhen 30 and 80 swap")
+    trade.text(4, 0.6, "the other three: 1,\nas it must be", size=7, va="top")
+    trade.set_title(
+        "Reciprocity: the original changes by a factor\n"
+        f"of {1 / worst:.1f} when light and viewer swap {FIXED:g} and 80 degrees"
+    )
 
     cut.set(xlim=(-90, 90), xticks=range(-90, 91, 30), ylim=(0, 1.05))
     mark = CUT_FROM - 90
@@ -175,8 +179,8 @@ def curves():
     cut.set_xlabel(rf"viewer $\theta_o$ (degrees), light at {-CUT_FROM:g}")
     cut.set_ylabel("lobe / its largest value (1)")
     cut.set_title(
-        f"p = {SMALL[1]:g}: {100 * edge(SMALL[1]):.0f} % of the Phong lobe left\n"
-        f"{BEFORE:g} degree before the cut-off, 0 beyond it"
+        f"Cut-off, p = {SMALL[1]:g}: {100 * edge(SMALL[1]):.0f} % of both Phong lobes\n"
+        f"are left {BEFORE:g} degree before the edge, nothing beyond"
     )
     figure.legend(
         *energy.get_legend_handles_labels(), loc="outside lower center", ncols=4
@@ -242,7 +246,7 @@ def lit():
 @styled
 def sheet():
     """Every combination of the parameters of the shading equation, as spheres."""
-    figure = new_figure(9.6, 4.0)
+    figure = new_figure(9.6, 4.3)
     blocks = figure.subfigures(1, len(SHEET["p"]))
     scene = lit_sphere(SHEET_RESOLUTION, [LIGHTS["front"]], 1.0)
     brightest = 0.0
@@ -260,8 +264,13 @@ def sheet():
             brightest = max(brightest, float(np.nanmax(image)))
         block.suptitle(f"p = {exponent:g}", size=9)
     figure.suptitle(
-        "kd (n.l) + ks (r.v)^p: a white diffuse surface has the value 1, "
-        f"the brightest pixel {brightest:.2f}"
+        "kd (n.l) + ks (r.v)^p: kd lifts the base, ks the highlight, p narrows it; "
+        "p = 1 ends in an edge"
+    )
+    figure.supxlabel(
+        "1 is a white diffuse surface that faces the light; what exceeds it, up to "
+        f"{brightest:.2f} where kd + ks > 1, is drawn white; sRGB",
+        size=8,
     )
     return figure
 
