@@ -30,7 +30,7 @@ every_model = pytest.mark.parametrize("name", MODELS)
 REFLECTANCES = {"albedo", "base", "diffuse", "specular", "f0"}
 
 # affine in each of these alone, but not declared so: there are products among them, of
-# diffuse and specular, and of metallic and all others
+# diffuse and specular, and of metallic with base, specular and sheen
 AFFINE_UNDECLARED = {
     "ashikhmin_shirley": {"diffuse", "specular"},
     "principled": {"base", "metallic", "specular", "sheen", "clearcoat"},
