@@ -8,7 +8,6 @@ $\int D \cos\theta_h\,d\omega_h = 1$ over the hemisphere.
 import jax.numpy as jnp
 
 from brdffit import numerics
-from brdffit.geometry import tan_squared
 from brdffit.types import Direction, Scalar
 
 
@@ -65,39 +64,53 @@ def _excess(alpha: Scalar) -> Scalar:
     return (1 - alpha) * (1 + alpha) / (alpha * alpha)
 
 
-def gtr1(wh: Direction, alpha: Scalar) -> Scalar:
-    r"""Generalised Trowbridge-Reitz with exponent 1: the longest tails, isotropic.
+def gtr1(wh: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
+    r"""Generalised Trowbridge-Reitz with exponent 1: the longest tails.
 
     $$D = \frac{\alpha^2 - 1}{\pi\,\log\alpha^2\,
           (\alpha^2\cos^2\theta_h + \sin^2\theta_h)}$$
 
-    uniform, $1/\pi$, at $\alpha = 1$.
+    uniform, $1/\pi$, at $\alpha = 1$. With two roughnesses it is that of
+    $\alpha = \sqrt{\alpha_x\alpha_y}$, its slopes stretched by $\alpha_x/\alpha$ and
+    $\alpha_y/\alpha$: $D(M\omega_h)\,|M\omega_h|^{-4}$ with
+    $M = \mathrm{diag}(\alpha/\alpha_x, \alpha/\alpha_y, 1)$.
 
     Source:
         B. Burley, "Physically-Based Shading at Disney", SIGGRAPH 2012 course notes,
-        appendix B.2.
+        appendix B.2, where it is isotropic; stretched as in E. Heitz, "Understanding
+        the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014.
     """
     x, y, z = wh
-    scale = 1 / numerics.norm_of(x, y, z)
-    u, v = x * scale, y * scale
-    square = alpha * alpha
+    alpha = numerics.sqrt(alpha_x * alpha_y)
+    p, q = x * (alpha / alpha_x), y * (alpha / alpha_y)
+    scale = 1 / numerics.norm_of(p, q, z)
+    stretch = numerics.norm_of(x, y, z) * scale
+    u, v, stretch = p * scale, q * scale, stretch * stretch
     peak = (alpha + 1) / (2 * jnp.pi * numerics.log_ratio(alpha))
-    return peak / (square + (1 - alpha) * (1 + alpha) * (u * u + v * v))
+    spread = alpha * alpha + (1 - alpha) * (1 + alpha) * (u * u + v * v)
+    return peak * (stretch * stretch) / spread
 
 
-def blinn(wh: Direction, exponent: Scalar) -> Scalar:
-    r"""Blinn: a power of the cosine.
+def blinn(wh: Direction, alpha_x: Scalar, alpha_y: Scalar) -> Scalar:
+    r"""Blinn: a power of the cosine, of which the azimuth decides.
 
-    $$D = \frac{p + 2}{2\pi}\,\cos^p\theta_h$$
+    $$D = \frac{1}{\pi\,\alpha_x\alpha_y}\,\cos^p\theta_h, \qquad
+      p = 2\,\frac{(h_x/\alpha_x)^2 + (h_y/\alpha_y)^2}{h_x^2 + h_y^2} - 2$$
 
-    Close to Beckmann with $\alpha^2 = 2 / (p + 2)$ when $p$ is large.
+    For equal alphas the exponent is $2/\alpha^2 - 2$, with which the peak is that of
+    Beckmann, $(p + 2)/2\pi$.
 
     Source:
         J. F. Blinn, "Models of Light Reflection for Computer Synthesized Pictures",
-        SIGGRAPH 1977; normalised in B. Walter et al., EGSR 2007.
+        SIGGRAPH 1977; normalised, with this exponent, in B. Walter et al., EGSR 2007;
+        stretched as in M. Ashikhmin and P. Shirley, "An Anisotropic Phong BRDF Model",
+        Journal of Graphics Tools 5(2), 2000.
     """
-    lobe = jnp.exp(-0.5 * exponent * jnp.log1p(tan_squared(wh)))
-    return (exponent + 2) / (2 * jnp.pi) * lobe
+    x, y, z = wh
+    u, v = x / z, y / z
+    power = u * u * _excess(alpha_x) + v * v * _excess(alpha_y)
+    lobe = jnp.exp(-power * numerics.log1p_ratio(u * u + v * v))
+    return lobe / (jnp.pi * alpha_x * alpha_y)
 
 
 def student_t(wh: Direction, alpha_x: Scalar, alpha_y: Scalar, gamma: Scalar) -> Scalar:

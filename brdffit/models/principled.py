@@ -87,7 +87,8 @@ def diffuse(cos_i: Scalar, cos_o: Scalar, cos_d: Scalar, roughness: Scalar) -> S
 def clearcoat(wi: Direction, wo: Direction, gloss: Scalar, separable: bool) -> Scalar:
     """The coat at full strength."""
     wh, quarter = bisector(wi, wo), jnp.full_like(gloss, 0.25)
-    d = ndf.gtr1(wh, 0.1 - 0.099 * gloss)
+    alpha = 0.1 - 0.099 * gloss
+    d = ndf.gtr1(wh, alpha, alpha)
     f = fresnel.schlick(fresnel.cos_d(wh), jnp.full_like(gloss, 0.04))
     g = masking_shadowing.smith_ggx(wi, wo, quarter, quarter, separable)
     return 0.25 * d * f * g

@@ -19,13 +19,15 @@ NDFS = {
     "ggx stretched": (ndf.ggx, (0.05, 0.6)),
     "ggx smooth": (ndf.ggx, (1e-4, 1e-4)),
     "ggx rough": (ndf.ggx, (1.0, 1.0)),
-    "gtr1": (ndf.gtr1, (0.1,)),
-    "gtr1 smooth": (ndf.gtr1, (1e-4,)),
-    "gtr1 almost rough": (ndf.gtr1, (0.999,)),
-    "gtr1 rough": (ndf.gtr1, (1.0,)),
-    "blinn": (ndf.blinn, (50.0,)),
-    "blinn flat": (ndf.blinn, (0.0,)),
-    "blinn narrow": (ndf.blinn, (1e5,)),
+    "gtr1": (ndf.gtr1, (0.1, 0.1)),
+    "gtr1 stretched": (ndf.gtr1, (0.05, 0.6)),
+    "gtr1 smooth": (ndf.gtr1, (1e-4, 1e-4)),
+    "gtr1 almost rough": (ndf.gtr1, (0.999, 0.999)),
+    "gtr1 rough": (ndf.gtr1, (1.0, 1.0)),
+    "blinn": (ndf.blinn, (0.2, 0.2)),
+    "blinn stretched": (ndf.blinn, (0.05, 0.6)),
+    "blinn flat": (ndf.blinn, (1.0, 1.0)),
+    "blinn narrow": (ndf.blinn, (1e-4, 1e-4)),
     "student_t": (ndf.student_t, (0.3, 0.3, 3.0)),
     "student_t stretched": (ndf.student_t, (0.1, 0.5, 1.6)),
     "student_t compact": (ndf.student_t, (0.3, 0.3, 40.0)),
@@ -80,11 +82,41 @@ def test_student_t_approaches_beckmann():
 def test_gtr1_is_uniform_when_rough_and_continuous_there():
     wh = slanted(6)
     rough, almost = (
-        jax.vmap(functools.partial(ndf.gtr1, alpha=alpha))(wh)
+        jax.vmap(ndf.gtr1, (0, None, None))(wh, alpha, alpha)
         for alpha in (jnp.float32(1.0), jnp.float32(0.9999))
     )
     np.testing.assert_allclose(rough, 1 / np.pi, rtol=1e-6)
     np.testing.assert_allclose(almost, rough, rtol=2e-4)
+
+
+def test_blinn_with_equal_alphas_is_a_power_of_the_cosine():
+    wh, exponent = slanted(10), 48.0
+    alpha = jnp.float32(np.sqrt(2 / (exponent + 2)))
+    found = jax.vmap(ndf.blinn, (0, None, None))(wh, alpha, alpha)
+    power = np.asarray(wh, float)[:, 2] ** exponent
+    expected = (exponent + 2) / (2 * np.pi) * power
+    np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-30)
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        ndf.beckmann,
+        ndf.ggx,
+        ndf.gtr1,
+        ndf.blinn,
+        functools.partial(ndf.student_t, gamma=jnp.float32(3.0)),
+    ],
+    ids=["beckmann", "ggx", "gtr1", "blinn", "student_t"],
+)
+def test_stretched_facets_are_wider_along_the_larger_alpha(function):
+    """As if turned by a right angle when the alphas change places."""
+    narrow, wide = jnp.float32(0.1), jnp.float32(0.5)
+    along, across = jnp.array([0.3, 0.0, 0.954]), jnp.array([0.0, 0.3, 0.954])
+    assert function(across, narrow, wide) > 3 * function(along, narrow, wide)
+    np.testing.assert_allclose(
+        function(across, narrow, wide), function(along, wide, narrow), rtol=1e-6
+    )
 
 
 def test_slope_gaussian_is_beckmann_without_its_norm():

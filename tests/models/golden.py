@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 
+from brdffit import numerics
 from brdffit.geometry import bisector
 from brdffit.microfacet import (
     diffraction,
@@ -156,6 +157,11 @@ def he(p):
     return He(**lengths, **metal, diffuse=scattered[None], wavelengths=p["lam"][None])
 
 
+def blinn(p, h):
+    alpha = numerics.sqrt(2 / (p["p"] + 2))
+    return ndf.blinn(h, alpha, alpha)
+
+
 def series_of_he(g, c):
     return diffraction.scattering_lobe(g, c / (1 + g)) / (1 + g)
 
@@ -212,8 +218,8 @@ ENTRIES = {
     "he_series": Entry(lambda p: series_of_he(p["g"], p["c"])),
     "D_beckmann": slopes(ndf.beckmann, "ax", "ay"),
     "D_ggx": slopes(ndf.ggx, "ax", "ay"),
-    "D_blinn": slopes(ndf.blinn, "p"),
-    "gtr1": slopes(ndf.gtr1, "alpha"),
+    "D_blinn": visible(blinn),
+    "gtr1": slopes(ndf.gtr1, "alpha", "alpha"),
     "gtr2": slopes(ndf.ggx, "alpha", "alpha"),
     "G1_beckmann": masked(masking.area_beckmann),
     "G1_beckmann_rational": masked(masking.area_beckmann_rational),
