@@ -165,6 +165,17 @@ def test_smooth_and_rough_lobes_are_not_lost(alpha):
     assert float(albedo_at(lobe, incident(0.0))[0]) == pytest.approx(expected, abs=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("name", "beyond", "most"),
+    [("ggx", 49.6, 1.155), ("beckmann", 15.5, 1.29), ("ggx_multiscatter", 47.9, 1.155)],
+)
+def test_base_that_a_lobe_does_not_attenuate_reflects_too_much(name, beyond, most):
+    brdf = MODELS[name](diffuse=[0.96], f0=[0.04], alpha=0.3)
+    assert float(albedo_at(brdf, incident(beyond - 1))[0]) < 1
+    assert float(albedo_at(brdf, incident(beyond + 1))[0]) > 1
+    assert float(albedo_at(brdf, incident(89.99))[0]) == pytest.approx(most, abs=1e-3)
+
+
 def test_isotropic_models_do_not_see_the_azimuth_of_light():
     brdf = MODELS["phong"](diffuse=[0.0], specular=[1.0], exponent=1e5)
     along, across = (albedo_at(brdf, incident(85.0, phi)) for phi in (0.0, 77.0))

@@ -20,8 +20,10 @@ from brdffit.types import Direction, Scalar
 STEPS = 6  # of Newton's method for W, from starts that make these enough in float64
 NODES = {np.dtype(np.float32): 68, np.dtype(np.float64): 168}
 SPREAD = {np.dtype(np.float32): 5.6, np.dtype(np.float64): 8.6}
-ARTANH_SERIES = tuple(1 / (2 * n + 3) for n in range(7))
+ARTANH_SERIES = tuple(1 / (2 * n + 3) for n in range(16))
 EXPM1_SERIES = tuple(1 / math.factorial(n + 2) for n in range(13))
+# of these two where the argument of the first is at most 1/9, of the second 1/2
+SERIES_TERMS = {np.dtype(np.float32): (7, 6), np.dtype(np.float64): (16, 13)}
 STIRLING_TERMS = {np.dtype(np.float32): 8, np.dtype(np.float64): 18}
 
 
@@ -110,22 +112,22 @@ def scattering_lobe(g: Scalar, t: Scalar) -> Scalar:
         The sum of X. He et al., SIGGRAPH 1991, eq. 78; its exponents as in C. Loader,
         "Fast and Accurate Computation of Binomial Probabilities", 2000.
     """
-    return (1 + g) * _sums(g, t)[0]
+    return (1 + g) * _sums(g, t, slopes=False)[0]
 
 
 @scattering_lobe.defjvp
 def _scattering_lobe_jvp(primals, tangents):
     # by hand: each term of the derivative is one of the sum times a simple factor
     (g, t), (dg, dt) = primals, tangents
-    total, by_g, by_t = _sums(g, t)
+    total, by_g, by_t = _sums(g, t, slopes=True)
     return (1 + g) * total, by_g * dg + by_t * (1 + g) * (1 + g) * dt
 
 
-def _sums(g: Scalar, t: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+def _sums(g: Scalar, t: Scalar, slopes: bool) -> tuple[Scalar, Scalar, Scalar]:
     """The series, the derivative of the lobe by ``g``, that of the series by ``c``.
 
     One order after another: an array of all orders of all directions would not fit in
-    a cache.
+    a cache. Without ``slopes`` the derivatives are 0.
     """
     dtype, c = g.dtype, (1 + g) * t
     g = jnp.maximum(g, jnp.finfo(dtype).tiny ** 0.5)
@@ -138,14 +140,16 @@ def _sums(g: Scalar, t: Scalar) -> tuple[Scalar, Scalar, Scalar]:
         v = x / (2 + x)
         deviance = jnp.where(
             jnp.abs(x) < 0.1,
-            v * (x - 2 * v * v * _horner(ARTANH_SERIES, v * v)),
+            v * (x - 2 * v * v * _horner(ARTANH_SERIES[:7], v * v)),
             x - jnp.log(g * u),
         )
         psi = u * _horner(stirling_series(dtype), 2 * u - 1)
         term = jnp.exp(-(m * deviance + c * u + psi)) * u * numerics.sqrt(u)
-        step_down, bend = _previous_order(u, c)
         total, by_g, by_c = sums
-        return total + term, by_g - term * m * (bend + step_down / g), by_c - term * u
+        if slopes:
+            step_down, bend = _previous_order(u, c)
+            by_g, by_c = by_g - term * m * (bend + step_down / g), by_c - term * u
+        return total + term, by_g, by_c
 
     zero = jnp.zeros_like(g)
     sums = jax.lax.fori_loop(0, NODES[dtype], add, (zero, zero, zero))
@@ -163,25 +167,23 @@ def _previous_order(u: Scalar, c: Scalar) -> tuple[Scalar, Scalar]:
     $$g S_g = -\sum m\,p_m\,(h(m - 1) - h(m)), \qquad
       S + g S_g + c S_c = -\sum m\,p_m\,(h(m - 1) - h(m) + h'(m))$$
     """
+    artanh, expm1 = SERIES_TERMS[u.dtype]
     first = u >= 1
     u = jnp.where(first, 0.5, u)
     v = u / (2 - u)  # the logarithm of 1 - u is -2 artanh(v)
-    excess = jnp.where(
-        u < 0.1,
-        v * (u + 2 * v * v * _horner(ARTANH_SERIES, v * v)),
-        -jnp.log1p(-u) - u,
-    )
+    excess = v * (u + 2 * v * v * _horner(ARTANH_SERIES[:artanh], v * v))
     slope, rest = u - c * u * u, excess - c * u * u * u / (1 - u)
     logarithm = slope + rest
-    near = jnp.where(jnp.abs(logarithm) < 0.5, logarithm, 0.0)
-    change = jnp.expm1(logarithm)
+    close = jnp.abs(logarithm) < 0.5
+    near = jnp.where(close, logarithm, 0.0)
     curved = jnp.where(
-        jnp.abs(logarithm) < 0.5,
-        near * near * _horner(EXPM1_SERIES, near),
-        change - logarithm,
+        close,
+        near * near * _horner(EXPM1_SERIES[:expm1], near),
+        jnp.exp(logarithm) - 1 - logarithm,
     )
     # nothing comes before the first order
-    return jnp.where(first, -1.0, change), jnp.where(first, c - 2, curved + rest)
+    change = jnp.where(first, -1.0, logarithm + curved)
+    return change, jnp.where(first, c - 2, curved + rest)
 
 
 def _orders(g: Scalar, c: Scalar) -> tuple[Scalar, Scalar]:
