@@ -14,7 +14,8 @@ The package reads from top to bottom; a module imports only from lines above its
     catalogue              models by name and in numbers
     optics, albedo         refractive indices of materials; integrals of a BRDF
     samples, images        weighted directions with values; linear images
-    scene                  camera, shapes, lights
+    scene                  camera, shapes, lights, surface detail
+    effects                one effect per file: when a scene calls for it, what it adds
     render                 geometry pass, shading, images
     readers, writers       one file format per file
     survey, conversion     what a file holds; a measurement in another format
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from brdffit.cache import enable_compilation_cache as enable_compilation_cache
     from brdffit.databases import fetch as fetch
     from brdffit.exports import export as export
+    from brdffit.effects import Plan as Plan, plan as plan
     from brdffit.fit import FitResult as FitResult, fit as fit
     from brdffit.fit.bootstrap import bootstrap as bootstrap
     from brdffit.fit.least_squares import least_squares as least_squares
@@ -67,6 +69,7 @@ _HOME = {
     "Goniometer": "scene",
     "Measurement": "samples",
     "Noise": "render",
+    "Plan": "effects",
     "Samples": "samples",
     "Scene": "scene",
     "bootstrap": "fit.bootstrap",
@@ -81,6 +84,7 @@ _HOME = {
     "load": "readers",
     "load_result": "fit.result",
     "load_scene": "scene",
+    "plan": "effects",
     "profile": "fit.profile",
     "render": "render",
     "simulate_image": "render",

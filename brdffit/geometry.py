@@ -140,6 +140,19 @@ TANGENTS = {
 """Tangent fields by the name that a scene calls them."""
 
 
+def any_tangent(normal: Direction) -> Direction:
+    """Some unit vector perpendicular to ``normal``, continuous but at z = 0.
+
+    Source:
+        T. Duff et al., "Building an Orthonormal Basis, Revisited", Journal of Computer
+        Graphics Techniques 6(1), 2017.
+    """
+    x, y, z = normal
+    sign = jnp.where(z < 0, -1.0, 1.0)
+    a = -1 / (sign + z)
+    return jnp.stack([1 + sign * x * x * a, sign * x * y * a, -sign * x])
+
+
 def shading_frame(normal: Direction, tangent: Direction) -> Float[Array, "3 3"]:
     """Rows tangent, bitangent, normal: ``frame @ w`` is ``w`` in the local frame.
 

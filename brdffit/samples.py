@@ -36,7 +36,8 @@ class Pixels(eqx.Module):
 class Samples(eqx.Module):
     """Directions with weights, and what was observed there.
 
-    The value of a sample is ``sum over lights of f_r(wi, wo) weight``.
+    The value of a sample is ``sum over lights of f_r(wi, wo) weight``, and with ambient
+    light ``diffuse_reflectance ambient`` more.
 
     Attributes:
         wi: Directions to the lights, in the local frame of each sample.
@@ -52,6 +53,7 @@ class Samples(eqx.Module):
         channels: Name of each channel.
         pixels: Where the samples lie in images, or None for a goniometer.
         name: What was measured.
+        ambient: What a unit of diffuse reflectance adds to each value, or None.
     """
 
     wi: Float[AnyArray, "sample light 3"]
@@ -65,6 +67,7 @@ class Samples(eqx.Module):
     channels: tuple[str, ...] = eqx.field(static=True, default=())
     pixels: Pixels | None = None
     name: str = eqx.field(static=True, default="")
+    ambient: Values | None = None
 
     def __len__(self) -> int:
         return self.wo.shape[0]
@@ -98,7 +101,7 @@ class Samples(eqx.Module):
             pick(self.pixels.column),
             self.pixels.shape,
         )
-        arrays = ("wi", "wo", "weight", "cosine", "value", "sigma", "mask")
+        arrays = ("wi", "wo", "weight", "cosine", "value", "sigma", "mask", "ambient")
         return dataclasses.replace(
             self,
             **{name: pick(getattr(self, name)) for name in arrays},
@@ -165,6 +168,7 @@ def join(parts: Sequence[Samples]) -> Samples:
         return None if arrays[0] is None else np.concatenate(arrays)
 
     names = ("wi", "wo", "weight", "cosine", "value", "sigma", "mask", "solid_angle")
+    names += ("ambient",)
     pixels = [part.pixels for part in parts if part.pixels is not None]
     frames = np.cumsum([0, *(where.shape[0] for where in pixels)])
     shifted = [
@@ -193,8 +197,8 @@ def pick_channels(data: Data, names: Sequence[str]) -> Data:
     picked = [look_up(places, name, "Channel") for name in names]
     new = {
         name: array[..., picked]
-        for name in (*arrays, "sigma", "mask")
-        if (array := getattr(data, name)) is not None
+        for name in (*arrays, "sigma", "mask", "ambient")
+        if (array := getattr(data, name, None)) is not None
     }
     return dataclasses.replace(data, **new, channels=tuple(names))
 

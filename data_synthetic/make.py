@@ -28,7 +28,7 @@ def make_sphere(entry: dict[str, Any], folder: Path) -> Path:
     lights = tuple(
         Directional(**light) for light in MANIFEST["lights"][entry["lights"]]
     )
-    scene = Scene(Orthographic(entry["resolution"]), Sphere(), lights)
+    scene = Scene(Orthographic(entry["resolution"]), (Sphere(),), lights)
     path = folder / entry["file"]
     sphere.save(simulate_image(brdf, scene), scene, path, provenance(brdf))
     return path

@@ -41,7 +41,7 @@ CONTROL = GGX(diffuse=DIFFUSE, f0=[0.4] * 3, alpha=0.2)
 
 def image(brdf, field, resolution):
     """A sphere, NaN beside it."""
-    samples = trace(lit_sphere(resolution, [LIGHT], np.pi, tangents=field), 3)
+    samples = trace(lit_sphere(resolution, [LIGHT], np.pi, tangents=field))
     return samples.pixels.images(np.asarray(compiled_shade(brdf, samples)))[0]
 
 

@@ -20,6 +20,7 @@ from brdffit.cli.fetch import fetch
 from brdffit.cli.fit import fit
 from brdffit.cli.info import info
 from brdffit.cli.models import models
+from brdffit.cli.plan import plan
 from brdffit.cli.render import render
 from brdffit.cli.simulate import simulate
 
@@ -39,7 +40,19 @@ app = App(
     help_format="plaintext",
     default_parameter=Parameter(negative=(), show_default=False),
 )
-COMMANDS = (demo, models, info, fit, compare, simulate, render, convert, export, fetch)
+COMMANDS = (
+    demo,
+    models,
+    info,
+    fit,
+    compare,
+    simulate,
+    plan,
+    render,
+    convert,
+    export,
+    fetch,
+)
 for command in COMMANDS:
     app.command(command)
 

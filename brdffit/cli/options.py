@@ -37,6 +37,29 @@ Resolution = Annotated[
     Parameter("--resolution", help="Rows and columns of the default sphere. [256]"),
 ]
 
+Tolerance = Annotated[
+    float | None,
+    Parameter("--tolerance", help="Relative error that effects may leave. [0.001]"),
+]
+With = Annotated[
+    tuple[str, ...],
+    Parameter("--with", consume_multiple=True, help="Effects to simulate in any case."),
+]
+Without = Annotated[
+    tuple[str, ...],
+    Parameter(
+        "--without", consume_multiple=True, help="Effects to leave out in any case."
+    ),
+]
+Within = Annotated[
+    str,
+    Parameter(
+        "--within",
+        help="Parameters to plan for: given, or the worst of typical or bounds. "
+        "[given]",
+    ),
+]
+
 
 def words(text: str) -> list[str]:
     """The parts between commas."""

@@ -13,6 +13,9 @@ from brdffit.cli.options import (
     Resolution,
     SceneFile,
     Settings,
+    Tolerance,
+    With,
+    Without,
     assignments,
 )
 
@@ -25,6 +28,9 @@ def render(
     scene: SceneFile = None,
     lights: Lights = None,
     resolution: Resolution = None,
+    tolerance: Tolerance = None,
+    with_: With = (),
+    without: Without = (),
     out: Annotated[Path, Parameter("--out")],
     as_json: Json = False,
 ) -> None:
@@ -35,6 +41,7 @@ def render(
         out: Image to write, .exr; .toml and .png come beside it.
     """
     from brdffit.cli.inputs import saved_or_named, scene_or_sphere
+    from brdffit.effects.plan import TOLERANCE
     from brdffit.files import require_writable
     from brdffit.render import description
     from brdffit.writers import sphere
@@ -46,13 +53,27 @@ def render(
     brdf = saved_or_named(source, assignments(settings, "--set"))
     view = scene_or_sphere(scene, lights, resolution)
     material = description(brdf)
-    samples = brdffit.simulate_image(brdf, view)
+    plan = brdffit.plan(
+        view,
+        brdf,
+        tolerance=TOLERANCE if tolerance is None else tolerance,
+        with_=with_,
+        without=without,
+    )
+    image = brdffit.render(brdf, view, plan)
     out.parent.mkdir(parents=True, exist_ok=True)
-    sphere.save(samples, view, out, material)
+    sphere.save_image(image, view, out, provenance=material)
     written = [out, *map(out.with_suffix, (".toml", ".png"))]
     if as_json:
         files = [str(path) for path in written]
-        console.print_json({"material": material, "files": files})
+        effects = [name for name in plan.decisions if plan.on(name)]
+        facts = {"effects": effects, "overridden": plan.overridden}
+        console.print_json({"material": material} | facts | {"files": files})
     else:
-        console.print_line(f"Rendered {material['model']} at {len(samples)} pixels.")
+        rows, columns = view.camera.shape
+        console.print_line(
+            f"Rendered {material['model']} at {rows} x {columns} pixels."
+        )
+        for sentence in plan.overridden:
+            console.print_line(sentence)
         console.print_written(written)

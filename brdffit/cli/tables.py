@@ -14,7 +14,11 @@ from brdffit.fit import FitResult
 from brdffit.fit.select import Comparison
 from brdffit.parameters import parameters
 
-WORDY = ("parameters", "what it is")  # columns of words, which may take several lines
+WORDY = (
+    "parameters",
+    "what it is",
+    "why",
+)  # columns of words, which may take several lines
 LOST = "undetermined"
 MARKS = {"at bound": "{} *", LOST: "{} ?"}
 DIGITS = 6  # most significant digits of a value

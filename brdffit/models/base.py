@@ -64,6 +64,15 @@ class AbstractBRDF(eqx.Module):
         known = parameters(self)
         return next(v.shape[-1] for n, v in values(self).items() if known[n].spectral)
 
+    @property
+    def diffuse_reflectance(self) -> Spectrum:
+        """Reflectance of the diffuse part, as its parameter says; 0 without one."""
+        known = values(self)
+        for name in ("diffuse", "albedo"):
+            if name in known:
+                return known[name]
+        return jnp.zeros(self.channels)
+
     def __add__(self, other: "AbstractBRDF") -> "AbstractBRDF":
         """Both models side by side, as a `Sum`."""
         # imported late: a sum is a model, and is built on this interface

@@ -64,6 +64,11 @@ class Principled(AbstractBRDF):
     reciprocal: ClassVar[bool] = True
     energy_conserving: ClassVar[bool] = False
 
+    @property
+    def diffuse_reflectance(self) -> Spectrum:
+        """Reflectance of the part that is no metal."""
+        return (1 - self.metallic) * self.base
+
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         wh = bisector(wi, wo)
         cos_d = fresnel.cos_d(wh)

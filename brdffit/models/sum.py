@@ -66,5 +66,10 @@ class Sum(AbstractBRDF):
                 f"{self.second.channels}."
             )
 
+    @property
+    def diffuse_reflectance(self) -> Spectrum:
+        """That of both parts together."""
+        return self.first.diffuse_reflectance + self.second.diffuse_reflectance
+
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         return self.first.evaluate(wi, wo) + self.second.evaluate(wi, wo)

@@ -86,7 +86,9 @@ def plot_difference(
 
 def _rendered(models: Mapping[str, AbstractBRDF]) -> Figure:
     """A row of spheres under one light from the upper left."""
-    samples = trace(lit_sphere(RESOLUTION), next(iter(models.values())).channels)
+    samples = trace(
+        lit_sphere(RESOLUTION), channels=next(iter(models.values())).channels
+    )
     assert samples.pixels is not None  # for the type checker
     values = {n: np.asarray(compiled_shade(b, samples)) for n, b in models.items()}
     exposure = _exposure(np.concatenate(list(values.values())))

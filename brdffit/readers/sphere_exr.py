@@ -54,7 +54,7 @@ def load(path: Path | str) -> Samples:
             f"{scene.camera.shape[1]}."
         )
     try:
-        samples = trace(scene, len(channels))
+        samples = trace(scene, channels=len(channels))
     except ValueError as error:
         raise ValueError(f"Image `{path}` does not fit its scene: {error}") from error
     assert samples.pixels is not None  # for the type checker

@@ -173,7 +173,7 @@ def read_frame(
             f"pixels, but the mask {seen.shape[0]} x {seen.shape[1]}."
         )
     row, column = np.nonzero(seen)
-    scene = Scene(Orthographic(1), Sphere(), (light,))
+    scene = Scene(Orthographic(1), (Sphere(),), (light,))
     viewer = np.broadcast_to([0.0, 0.0, 1.0], normal.shape)
     where = Pixels(np.zeros_like(row), row, column, (1, *seen.shape))
     try:

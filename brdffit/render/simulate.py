@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from brdffit.catalogue import description as description
+from brdffit.effects import Plan
 from brdffit.models.base import AbstractBRDF
 from brdffit.parameters import registry_name
 from brdffit.render.geometry_pass import trace
@@ -16,9 +17,15 @@ from brdffit.scene import Goniometer, Scene
 
 
 def simulate_image(
-    brdf: AbstractBRDF, scene: Scene, noise: Noise = NOISELESS, name: str = ""
+    brdf: AbstractBRDF,
+    scene: Scene,
+    noise: Noise = NOISELESS,
+    name: str = "",
+    plan: Plan | None = None,
 ) -> Samples:
     """Samples of an image of a scene, with values, standard deviations and mask.
+
+    Only pixels that see shapes without a material of their own are samples.
 
     The mask is False where no light reaches, and where relative noise makes a value of
     zero certain: neither says anything about the BRDF.
@@ -28,11 +35,12 @@ def simulate_image(
         scene: Camera, shape and lights.
         noise: What is added to the truth.
         name: What is seen; by default the name of the model.
+        plan: What to simulate; by default what the scene calls for.
 
     Raises:
         ValueError: The lights have another number of channels than the BRDF.
     """
-    samples = trace(scene, brdf.channels)
+    samples = trace(scene, plan, brdf.channels)
     value, sigma = noise(compiled_shade(brdf, samples))
     lit = np.asarray(samples.weight).any(axis=1)
     return dataclasses.replace(

@@ -13,29 +13,142 @@ from jaxtyping import Float
 from brdffit.scene import values
 
 Rays = Float[np.ndarray, "pixel 3"]
+Vector = Float[np.ndarray, "3"]
+
+ORIGIN = (0.0, 0.0, 0.0)
+UP = (0.0, 1.0, 0.0)
+FAR = 1000.0  # where parallel rays start, before what they are to meet
 
 
 class Orthographic(eqx.Module):
-    """Parallel rays along -z onto the square from -1 to 1 in x and y.
+    """Parallel rays; by default along -z onto the square from -1 to 1 in x and y.
 
-    A unit sphere at the origin fills the frame; the viewer is at infinity on +z.
+    So a unit sphere at the origin fills the frame. The viewer is at infinity.
 
     Attributes:
-        resolution: Rows and columns of the image.
+        resolution: Rows and columns of the image, one number when they are equal.
+        towards: Unit vector from what is seen towards the viewer.
+        target: Point in the centre of the image.
+        up: What is up in the image; need not be perpendicular to ``towards``.
+        height: Of the image, in the unit of the world.
+
+    Raises:
+        ValueError: A value is out of range, or up is the direction of view.
     """
 
-    resolution: int = eqx.field(
-        static=True, converter=partial(values.whole, "resolution", least=1)
+    resolution: int | tuple[int, int] = eqx.field(
+        static=True, converter=partial(values.size, "resolution")
     )
+    towards: Vector = eqx.field(
+        default=(0.0, 0.0, 1.0), converter=partial(values.unit_vector, "towards")
+    )
+    target: Vector = eqx.field(
+        default=ORIGIN, converter=partial(values.point, "target")
+    )
+    up: Vector = eqx.field(default=UP, converter=partial(values.point, "up"))
+    height: float = eqx.field(default=2.0, converter=partial(values.positive, "height"))
+
+    def __check_init__(self) -> None:
+        """Refuse an image that has no upright."""
+        _axes(self.towards, self.up)
 
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns of the image."""
-        return self.resolution, self.resolution
+        return _shape(self.resolution)
 
     def rays(self) -> tuple[Rays, Rays]:
         """Origin and unit direction of the ray of each pixel, row by row."""
-        centre = (2 * np.arange(self.resolution) + 1) / self.resolution - 1
-        y, x = np.meshgrid(-centre, centre, indexing="ij")
-        origin = np.stack([x.ravel(), y.ravel(), np.ones(x.size)], axis=-1)
-        return origin, np.broadcast_to([0.0, 0.0, -1.0], origin.shape)
+        right, up = _axes(self.towards, self.up)
+        x, y = (self.height / 2 * across for across in _plane(self.shape))
+        origin = self.target + FAR * self.towards + x * right + y * up
+        return origin, np.broadcast_to(-self.towards, origin.shape)
+
+
+class Perspective(eqx.Module):
+    """Rays from one point, as those of a pinhole camera.
+
+    Attributes:
+        resolution: Rows and columns of the image, one number when they are equal.
+        position: Where all rays start.
+        target: Point in the centre of the image.
+        up: What is up in the image; need not be perpendicular to the direction of view.
+        field_of_view: Angle from the top of the image to its bottom, in degrees.
+
+    Raises:
+        ValueError: A value is out of range, position and target are the same point, or
+            up is the direction of view.
+    """
+
+    resolution: int | tuple[int, int] = eqx.field(
+        static=True, converter=partial(values.size, "resolution")
+    )
+    position: Vector = eqx.field(converter=partial(values.point, "position"))
+    target: Vector = eqx.field(
+        default=ORIGIN, converter=partial(values.point, "target")
+    )
+    up: Vector = eqx.field(default=UP, converter=partial(values.point, "up"))
+    field_of_view: float = eqx.field(
+        default=40.0, converter=partial(values.positive, "field_of_view")
+    )
+
+    def __check_init__(self) -> None:
+        """Refuse a camera that looks nowhere."""
+        if self.field_of_view >= 180:
+            raise ValueError(
+                "`field_of_view` must lie between 0 and 180 degrees, but is "
+                f"{self.field_of_view:g}."
+            )
+        if np.array_equal(self.position, self.target):
+            raise ValueError(
+                "`target` must be another point than `position`, but both are "
+                f"{self.position.tolist()}."
+            )
+        _axes(self._towards, self.up)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the image."""
+        return _shape(self.resolution)
+
+    @property
+    def _towards(self) -> Vector:
+        back = self.position - self.target
+        return back / np.linalg.norm(back)
+
+    def rays(self) -> tuple[Rays, Rays]:
+        """Origin and unit direction of the ray of each pixel, row by row."""
+        right, up = _axes(self._towards, self.up)
+        half = np.tan(np.radians(self.field_of_view) / 2)
+        x, y = (half * across for across in _plane(self.shape))
+        direction = x * right + y * up - self._towards
+        direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+        return np.broadcast_to(self.position, direction.shape), direction
+
+
+Camera = Orthographic | Perspective
+
+
+def _shape(resolution: int | tuple[int, int]) -> tuple[int, int]:
+    return resolution if isinstance(resolution, tuple) else (resolution, resolution)
+
+
+def _plane(shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
+    """Place ``(pixel, 1)`` of pixel centres, up and down from -1 to 1, row by row."""
+    rows, columns = shape
+    across = (2 * np.arange(columns) + 1 - columns) / rows
+    down = (2 * np.arange(rows) + 1) / rows - 1
+    y, x = np.meshgrid(-down, across, indexing="ij")
+    return x.reshape(-1, 1), y.reshape(-1, 1)
+
+
+def _axes(towards: Vector, up: Vector) -> tuple[Vector, Vector]:
+    """Unit vectors to the right and up in the image."""
+    right = np.cross(up, towards)
+    length = np.linalg.norm(right)
+    if length <= 1e-9 * np.linalg.norm(up):
+        raise ValueError(
+            f"`up` must not be the direction of view, but is {up.tolist()}."
+        )
+    right = right / length
+    return right, np.cross(towards, right)

@@ -42,6 +42,67 @@ def positive(key: str, value: Any) -> float:
     return float(array)
 
 
+def share(key: str, value: Any) -> float:
+    """A number from 0 to 1.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    array = _numbers(key, value)
+    if array.ndim or not 0 <= array <= 1:
+        raise ValueError(f"`{key}` must be a number from 0 to 1, but is {value!r}.")
+    return float(array)
+
+
+def size(key: str, value: Any) -> int | tuple[int, int]:
+    """Rows and columns of an image: one whole number for both, or a list of the two.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    if isinstance(value, list | tuple) and len(value) == 2:
+        rows, columns = (whole(key, number, least=1) for number in value)
+        return rows, columns
+    return whole(key, value, least=1)
+
+
+def point(key: str, value: Any) -> Float[np.ndarray, "3"]:
+    """Three finite numbers.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    array = _numbers(key, value)
+    if array.shape != (3,):
+        raise ValueError(f"`{key}` must be three numbers, but is {value!r}.")
+    return array
+
+
+def pair(key: str, value: Any) -> Float[np.ndarray, "2"]:
+    """Two numbers above zero, or one for both.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    array = _numbers(key, value)
+    if array.shape not in ((), (2,)) or np.any(array <= 0):
+        raise ValueError(
+            f"`{key}` must be one or two numbers above 0, but is {value!r}."
+        )
+    return np.broadcast_to(array, 2).copy()
+
+
+def boolean(key: str, value: Any) -> bool:
+    """True or False.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    if not isinstance(value, bool | np.bool_):
+        raise ValueError(f"`{key}` must be true or false, but is {value!r}.")
+    return bool(value)
+
+
 def spectrum(key: str, value: Any) -> Float[np.ndarray, "..."]:
     """One number that is not negative, or a list with one for each channel.
 
@@ -101,9 +162,7 @@ def unit_vector(key: str, value: Any) -> Float[np.ndarray, "3"]:
     Raises:
         ValueError: It is not three numbers, or the length is off by more than 0.001.
     """
-    array = _numbers(key, value)
-    if array.shape != (3,):
-        raise ValueError(f"`{key}` must be three numbers, but is {value!r}.")
+    array = point(key, value)
     length = math.hypot(*array)
     if abs(length - 1) > TOLERANCE:
         raise ValueError(

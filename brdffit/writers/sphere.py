@@ -11,6 +11,7 @@ from typing import Any
 from brdffit import images
 from brdffit.samples import Samples
 from brdffit.scene import Scene, save_scene
+from brdffit.types import Image
 
 
 def save(
@@ -32,12 +33,28 @@ def save(
             in .exr.
         OSError: A file cannot be written.
     """
-    path = Path(path)
-    if path.suffix.lower() != ".exr":
-        raise ValueError(f"Image `{path}` must end in .exr to keep its values.")
     if samples.value is None or samples.pixels is None:
         raise ValueError(f"Samples for `{path}` must have values and pixels.")
     image = samples.pixels.images(samples.value, background=0.0)[0]
-    images.write(path, image, samples.channels)
+    save_image(image, scene, path, samples.channels, provenance)
+
+
+def save_image(
+    image: Image,
+    scene: Scene,
+    path: Path | str,
+    channels: tuple[str, ...] = (),
+    provenance: Mapping[str, Any] | None = None,
+) -> None:
+    """Write a rendered image as `save` does, with a name for each channel.
+
+    Raises:
+        ValueError: The path does not end in .exr.
+        OSError: A file cannot be written.
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".exr":
+        raise ValueError(f"Image `{path}` must end in .exr to keep its values.")
     save_scene(scene, path.with_suffix(".toml"), provenance)
+    images.write(path, image, channels)
     images.write_preview(path.with_suffix(".png"), image)

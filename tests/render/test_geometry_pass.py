@@ -84,13 +84,13 @@ def test_weight_is_irradiance_times_cosine_times_exposure(samples, normal):
 def test_lights_that_give_one_number_take_the_channels_asked_for():
     scene = lit_sphere(4)
     assert trace(scene).weight.shape == (12, 1, 3)
-    assert trace(scene, 1).weight.shape == (12, 1, 1)
+    assert trace(scene, channels=1).weight.shape == (12, 1, 1)
     assert trace(scene).channels == ("R", "G", "B")
 
 
 def test_channels_that_do_not_agree_are_refused():
     with pytest.raises(ValueError, match="Lights have 2 channels, but 3 are asked for"):
-        trace(lit_sphere(4, irradiance=[1.0, 1.0]), 3)
+        trace(lit_sphere(4, irradiance=[1.0, 1.0]), channels=3)
 
 
 def test_tracing_leaves_the_precision_of_jax_alone():

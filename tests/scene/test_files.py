@@ -1,12 +1,19 @@
 import re
 
+import equinox as eqx
 import numpy as np
 import pytest
+import trimesh
 
+from brdffit import images
 from brdffit.scene import (
     Directional,
+    Glass,
+    HeightMap,
+    Mirror,
     Orthographic,
     Scene,
+    ShadowMap,
     Sphere,
     lit_sphere,
     load_scene,
@@ -20,7 +27,7 @@ exposure = 2
 kind = "orthographic"
 resolution = 16
 
-[shape]
+[[shapes]]
 kind = "sphere"
 
 [[lights]]
@@ -41,7 +48,7 @@ def test_a_file_says_what_the_scene_is(tmp_path):
         Directional([0.0, 0.6, 0.8], [1.0, 0.5, 0.25]),
         Directional([1.0, 0.0, 0.0]),
     )
-    assert load_scene(path) == Scene(Orthographic(16), Sphere(), lights, 2.0)
+    assert load_scene(path) == Scene(Orthographic(16), (Sphere(),), lights, 2.0)
 
 
 def test_a_scene_survives_a_file_to_the_last_bit(tmp_path):
@@ -58,9 +65,14 @@ def test_a_scene_survives_a_file_to_the_last_bit(tmp_path):
     [
         ("exposure", "exposre", "key `exposre` must be one of .* mean `exposure`?"),
         ("resolution", "res", "in `camera`, key `res` must be one of resolution"),
-        ('"sphere"', '"spher"', "`kind` of `shape`, `spher` must be .* mean `sphere`"),
-        ('[shape]\nkind = "sphere"', "", "key `shape` is missing."),
-        ('kind = "sphere"', "", "`shape` must say its `kind`: sphere"),
+        (
+            '"sphere"',
+            '"spher"',
+            "`kind` of `shapes[0]`, `spher` must be .* mean `sphere`",
+        ),
+        ('[[shapes]]\nkind = "sphere"', "", "key `shapes` is missing."),
+        ("[[shapes]]", "[shape]", "key `shape` must be one of .* mean `shapes`?"),
+        ('kind = "sphere"', "", "`shapes[0]` must say its `kind`: sphere"),
         ("direction = [1, 0, 0]", "", "in `lights[1]`, key `direction` is missing."),
         ("[1, 0, 0]", "[1, 0, 0.1]", "in `lights[1]`, `direction` must be a unit"),
         ("[1, 0, 0]", "[1, 0]", "`direction` must be three numbers, but is [1, 0]."),
@@ -108,3 +120,156 @@ def test_a_file_that_cannot_be_read_or_written_is_named(tmp_path):
         load_scene(tmp_path / "binary.toml")
     with pytest.raises(OSError, match=r"none/a.toml` cannot be written"):
         save_scene(lit_sphere(), tmp_path / "none" / "a.toml")
+
+
+RICH = """
+depth = 3
+
+[camera]
+kind = "perspective"
+resolution = [12, 16]
+position = [0, 1, 5]
+
+[[shapes]]
+kind = "sphere"
+radius = 0.5
+opacity = {map = "holes.exr", threshold = 0.3}
+
+[shapes.height]
+map = "dents.exr"
+scale = 0.02
+repeat = 3
+
+[[shapes]]
+kind = "plane"
+point = [0, -1, 0]
+material = {model = "oren_nayar", albedo = [0.5, 0.5, 0.5], sigma = 0.4}
+
+[[shapes]]
+kind = "mesh"
+file = "ball.obj"
+smooth = true
+material = {model = "glass", eta = 1.4}
+
+[[shapes]]
+kind = "sphere"
+centre = [2, 0, 0]
+material = {model = "mirror", eta = [0.2, 0.9, 1.1], k = [3.9, 2.4, 2.1]}
+
+[[lights]]
+kind = "point"
+position = [1, 2, 3]
+intensity = 20
+
+[[lights]]
+kind = "ambient"
+radiance = [0.1, 0.1, 0.1]
+
+[[lights]]
+kind = "environment"
+map = "probe.hdr"
+
+[shadows]
+kind = "map"
+resolution = 64
+
+[style]
+kind = "gooch"
+steps = 3
+"""
+
+
+@pytest.fixture(scope="module")
+def rich(tmp_path_factory):
+    """A folder with a scene that has everything."""
+    folder = tmp_path_factory.mktemp("rich")
+    grey = np.full((4, 8, 3), 0.5, np.float32)
+    for name in ("holes.exr", "dents.exr", "probe.hdr"):
+        images.write(folder / name, grey)
+    trimesh.creation.icosphere(1).export(folder / "ball.obj")
+    (folder / "scene.toml").write_text(RICH)
+    return folder
+
+
+def test_everything_that_a_scene_may_hold_is_read(rich):
+    scene = load_scene(rich / "scene.toml")
+    assert scene.camera.shape == (12, 16)
+    assert scene.depth == 3
+    ball, floor, mesh, mirror = scene.shapes
+    assert ball.height.scale == 0.02
+    assert ball.opacity.threshold == 0.3
+    assert ball.material is None
+    np.testing.assert_allclose(floor.material.sigma, 0.4)
+    assert mesh.smooth
+    assert isinstance(mesh.material, Glass)
+    assert isinstance(mirror.material, Mirror)
+    assert isinstance(scene.shadows, ShadowMap)
+    assert scene.style.steps == 3
+    assert scene.channels == 3
+
+
+def test_everything_that_a_scene_may_hold_is_written(rich):
+    scene = load_scene(rich / "scene.toml")
+    save_scene(scene, rich / "again.toml")
+    again = load_scene(rich / "again.toml")
+    assert eqx.tree_equal(scene, again)
+
+
+def test_a_scene_from_arrays_says_what_it_needs_to_be_written(tmp_path):
+    lumpy = Sphere(height=HeightMap([[0.0, 1.0]]))
+    scene = Scene(Orthographic(4), (lumpy,), (Directional([0, 0, 1]),))
+    with pytest.raises(ValueError, match="cannot be written: save it as a file first"):
+        save_scene(scene, tmp_path / "a.toml")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ('"dents.exr"', '"none.exr"', "`shapes[0]`, in `height`, `map`: Image `.*none"),
+        ('"dents.exr"', "5", "`map` must name a file, but is 5"),
+        ("scale = 0.02", "depth = 0.02", "in `height`, key `depth` must be one of map"),
+        ('"ball.obj"', '"none.obj"', "in `shapes[2]`, `file`: mesh `.*none.obj` does"),
+        ('"probe.hdr"', '"none.hdr"', "in `lights[2]`, `map`: Image `.*none.hdr` does"),
+        (
+            "radius = 0.5",
+            "radius = 0",
+            "in `shapes[0]`, `radius` must be one number abo",
+        ),
+        ("point = [0, -1, 0]", "normal = [0, 2, 0]", "`normal` must be a unit vector"),
+        (
+            '"oren_nayar"',
+            '"oren"',
+            "`model` of `material`, `oren` must be .* `oren_nay",
+        ),
+        (
+            "sigma = 0.4",
+            "sgma = 0.4",
+            "in `shapes[1]`, key `sgma` must be one of albedo",
+        ),
+        ("sigma = 0.4", "sigma = 4", "Parameter `sigma` of `oren_nayar` must lie in"),
+        ("sigma = 0.4", "sigma = [1, 2]", "Parameter `sigma` of `oren_nayar` must be"),
+        ("eta = 1.4", "ior = 1.4", "in `shapes[2]`, key `ior` must be one of eta"),
+        ('{model = "glass", eta = 1.4}', '"glass"', "`material` must be a table"),
+        ("position = [1, 2, 3]", "", "in `lights[0]`, key `position` is missing"),
+        ("[0.1, 0.1, 0.1]", "[0.1, 0.1]", "same number of channels, but have 2, 3"),
+        ("intensity = 20", "intensity = -1", "`intensity` must be a number or a list"),
+        ("depth = 3", "depth = -1", "`depth` must be a whole number, 0 or above"),
+        ("steps = 3", "steps = 0.5", "in `style`, `steps` must be a whole number"),
+        ("smooth = true", "smooth = 1", "`smooth` must be true or false, but is 1"),
+        (
+            "resolution = 64",
+            "size = 64",
+            "in `shadows`, key `size` must be one of reso",
+        ),
+    ],
+)
+def test_whatever_is_wrong_with_a_part_is_said_with_its_key(rich, old, new, sentence):
+    assert old in RICH
+    path = rich / "wrong.toml"
+    path.write_text(RICH.replace(old, new))
+    pattern = re.escape(sentence).replace(r"\.\*", ".*")
+    with pytest.raises(
+        (ValueError, OSError), match=f"^Scene `.*wrong.toml`.*{pattern}"
+    ):
+        load_scene(path)
