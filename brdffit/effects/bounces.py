@@ -21,9 +21,10 @@ from jaxtyping import Array, Float
 
 from brdffit.effects.decision import Decision, View, not_called_for, operations
 from brdffit.scene import Glass, Hits, Mirror
+from brdffit.types import AnyArray
 
 NAME = "bounces"
-FAINT = 1e-3  # share of light below which a ray is given up
+FAINT = 1e-4  # share of light below which a ray is given up
 
 Meet = Callable[[np.ndarray, np.ndarray], Hits]
 Smooth = Mapping[int, Mirror | Glass]
@@ -72,23 +73,23 @@ class Path(eqx.Module):
         reflected: 1 where it went on by reflection, 0 by refraction.
     """
 
-    shape: Float[np.ndarray, "ray bounce"]
-    cosine: Float[np.ndarray, "ray bounce"]
-    inside: Float[np.ndarray, "ray bounce"]
-    reflected: Float[np.ndarray, "ray bounce"]
+    shape: Float[AnyArray, "ray bounce"]
+    cosine: Float[AnyArray, "ray bounce"]
+    inside: Float[AnyArray, "ray bounce"]
+    reflected: Float[AnyArray, "ray bounce"]
 
     def take(self, rows: np.ndarray) -> "Path":
         """The paths with these indices."""
         return Path(*(a[rows] for a in self.arrays))
 
     @property
-    def arrays(self) -> tuple[np.ndarray, ...]:
+    def arrays(self) -> tuple[AnyArray, ...]:
         """All that is kept."""
         return self.shape, self.cosine, self.inside, self.reflected
 
     def longer(self, *happened: np.ndarray, bounce: int) -> "Path":
         """The paths with one more bounce."""
-        arrays = [a.copy() for a in self.arrays]
+        arrays = [np.array(a) for a in self.arrays]
         for array, new in zip(arrays, happened, strict=True):
             array[:, bounce] = new
         return Path(*arrays)
@@ -113,7 +114,7 @@ class Ends(eqx.Module):
 
 
 def follow(
-    meet: Meet, first: Hits, missed, normals, smooth: Smooth, depth: int
+    meet: Meet, first: Hits, missed, normals, smooth: Smooth, depth: int, channels: int
 ) -> Ends:
     """Follow rays through mirrors and glass.
 
@@ -124,6 +125,7 @@ def follow(
         normals: From hits to the normals that reflect, with their bumps.
         smooth: Material of each smooth shape.
         depth: Number of bounces after which a ray is given up.
+        channels: Number of channels of the image.
     """
     pixel, away = missed
     live, path = first, _empty(len(first.ray), depth)
@@ -137,9 +139,9 @@ def follow(
             break
         live, path = live.take(rows), path.take(rows)
         origin, direction, pixels, path = _on(live, path, normals(live), smooth, bounce)
-        bright = np.asarray(shares(path, smooth, 1)).max(axis=1) > FAINT
+        bright = _bright(path, smooth, channels)
         origin, direction, pixels = origin[bright], direction[bright], pixels[bright]
-        path = path.take(np.flatnonzero(bright))
+        path = path.take(bright)
         live = meet(origin, direction)
         lost = np.setdiff1d(np.arange(len(pixels)), live.ray)
         skies.append((pixels[lost], direction[lost], path.take(lost)))
@@ -184,6 +186,16 @@ def _on(hits: Hits, path: Path, normal, smooth: Smooth, bounce: int):
     return origin, direction, pixels, _joined([reflected, passed])
 
 
+def _bright(path: Path, smooth: Smooth, channels: int) -> np.ndarray:
+    """Which rays still bring enough light to be followed."""
+    count, room = len(path.shape), 64
+    while room < count:
+        room *= 4
+    filled = (np.pad(a, ((0, room - count), (0, 0)), "edge") for a in path.arrays)
+    light = np.asarray(_compiled_shares(Path(*filled), smooth, channels))[:count]
+    return np.flatnonzero(light.max(axis=1) > FAINT)
+
+
 def _empty(count: int, depth: int) -> Path:
     nothing = np.zeros((count, depth))
     return Path(nothing - 1, nothing, nothing, nothing)
@@ -213,3 +225,6 @@ def shares(path: Path, smooth: Smooth, channels: int) -> Float[Array, "ray chann
             share = jnp.where(reflected > 0, back, (1 - back) * spread)[..., None]
         total = jnp.where(here[..., None], share, total)
     return jnp.prod(total, axis=1)
+
+
+_compiled_shares = eqx.filter_jit(shares)

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from brdffit.catalogue import from_name
+from brdffit.effects.bounces import smooth_shapes
 from brdffit.effects.decision import (
     Decision,
     View,
@@ -48,9 +49,9 @@ def decide(view: View) -> Decision:
 
 
 def _share(view: View) -> float:
-    """How much of the irradiance comes from the probe, at the points that are seen."""
+    """How much of the irradiance comes from the probe; all where it is itself seen."""
     scene, hits = view.scene, view.hits
-    if not len(hits.ray):
+    if len(hits.ray) < len(view.rays[0]) or smooth_shapes(scene.shapes):
         return 1.0
     both, others = (
         irradiance(incident(scene, hits.position, view.channels, sky), hits.normal)

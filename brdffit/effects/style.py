@@ -19,6 +19,7 @@ from brdffit.scene import Directional, Gooch, Hits, Point, Scene
 NAME = "style"
 COST = 40.0
 CREASE = 0.7  # cosine between the normals of neighbours below which a line is drawn
+STEEPER = 3.0  # times the steps on its sides that a step of depth is a line
 JUMP = 0.03  # step of depth that is a line, relative to the extent of what is seen
 
 
@@ -85,20 +86,21 @@ def outlines(hits: Hits, shape: tuple[int, int]) -> np.ndarray:
         here[axis], there[axis] = slice(None, -1), slice(1, None)
         a, b = tuple(here), tuple(there)
         seen = np.isfinite(depth[a]) & np.isfinite(depth[b])
-        with np.errstate(invalid="ignore"):
-            gap = np.abs(depth[a] - depth[b])
         edge = owner[a] != owner[b]
         edge |= seen & (np.sum(normal[a] * normal[b], axis=-1) < CREASE)
-        edge |= seen & (gap > JUMP * extent) & _concave(depth, axis, JUMP * extent)
+        edge |= seen & _jumps(depth, axis, JUMP * extent)
         nearer = depth[a] <= depth[b]
         drawn[a] |= edge & nearer
         drawn[b] |= edge & ~nearer
     return drawn
 
 
-def _concave(depth, axis: int, jump: float) -> np.ndarray:
-    """Whether the step of depth is not the one that the neighbours lead to expect."""
+def _jumps(depth, axis: int, least: float) -> np.ndarray:
+    """Whether a step of depth is large, and much larger than those on its sides."""
     with np.errstate(invalid="ignore"):  # where neither is seen
-        step = np.diff(depth, axis=axis)
-        before = np.roll(step, 1, axis=axis)
-        return ~(np.abs(step - before) < jump)
+        step = np.abs(np.diff(depth, axis=axis))
+    step = np.where(np.isfinite(step), step, 0)
+    none = np.zeros_like(np.take(step, [0], axis=axis))
+    before = np.concatenate([none, np.delete(step, -1, axis=axis)], axis=axis)
+    after = np.concatenate([np.delete(step, 0, axis=axis), none], axis=axis)
+    return step > least + STEEPER * np.maximum(before, after)

@@ -95,7 +95,9 @@ def trace_paths(
         def normals(hits):
             return bump.normals(geometry, hits) if plan.on("bump") else hits.normal
 
-        ends = bounces.follow(meet, hits, (sky, away), normals, smooth, scene.depth)
+        ends = bounces.follow(
+            meet, hits, (sky, away), normals, smooth, scene.depth, channels
+        )
         hits, way = ends.hits, ends.surface
         sky, away, way_to_sky = ends.pixel, ends.direction, ends.sky
     parts = []

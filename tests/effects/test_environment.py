@@ -1,0 +1,100 @@
+import numpy as np
+import pytest
+
+from brdffit.effects import plan
+from brdffit.effects.quadrature import Regions, texels
+from brdffit.models import MODELS
+from brdffit.render import render, trace
+from brdffit.render.shading import compiled_shade
+from brdffit.scene import Environment, Orthographic, Scene, Sphere
+
+ROWS, COLUMNS = 64, 128
+GREY = MODELS["lambert"](albedo=[0.5, 0.5, 0.5])
+
+
+def sky():
+    """A probe with a gradient, a soft sun and a black half, in colours."""
+    v, u = (np.mgrid[0:ROWS, 0:COLUMNS] + 0.5) / [[[ROWS]], [[COLUMNS]]]
+    y, phi = np.cos(np.pi * v), 2 * np.pi * u
+    z = -np.sin(np.pi * v) * np.cos(phi)
+    sun = 30 * np.exp(40 * (0.6 * y + 0.8 * z - 1))
+    pixels = (1 + y)[..., None] * [0.2, 0.3, 0.5] + sun[..., None] * [1.0, 0.9, 0.7]
+    return pixels * (u > 0.25)[..., None]
+
+
+@pytest.fixture(scope="module")
+def regions():
+    return Regions(Environment(sky()))
+
+
+def test_energy_is_exact_for_any_number_of_directions(regions):
+    whole = texels(Environment(sky()))[0].sum(axis=(0, 1))
+    for count in (1, 5, 64, 1000):
+        rule = regions.rule(count)
+        assert len(rule.towards) == count
+        np.testing.assert_allclose(rule.irradiance.sum(axis=0), whole, rtol=1e-12)
+        np.testing.assert_allclose(np.linalg.norm(rule.towards, axis=1), 1, rtol=1e-12)
+
+
+def test_a_rule_does_not_depend_on_what_was_asked_before(regions):
+    fresh = Regions(Environment(sky())).rule(100)
+    np.testing.assert_array_equal(regions.rule(100).towards, fresh.towards)
+
+
+def test_directions_are_where_the_light_is(regions):
+    near_sun = regions.rule(256).towards @ [0.0, 0.6, 0.8] > 0.9
+    assert near_sun.mean() > 0.1
+
+
+def test_a_probe_of_a_few_pixels_is_used_up():
+    rule = Regions(Environment(np.ones((2, 4, 1)))).rule(500)
+    assert len(rule.towards) == 8
+    assert rule.irradiance.sum() == pytest.approx(4 * np.pi, rel=1e-12)
+
+
+def test_a_single_bright_pixel_is_one_direction():
+    pixels = np.zeros((32, 64, 1))
+    pixels[10, 20] = 1000.0
+    rule = Regions(Environment(pixels)).rule(16)
+    light, direction = texels(Environment(pixels))
+    assert light.sum() == pytest.approx(rule.irradiance.sum(), rel=1e-12)
+    assert (rule.towards @ direction[10, 20] > 0.99).all()
+
+
+def test_a_white_surface_under_an_even_sky_shows_its_albedo():
+    even = Scene(Orthographic(12), (Sphere(),), (Environment(np.ones((32, 64, 1))),))
+    image = render(GREY, even, plan(even, GREY, tolerance=1e-3))
+    samples = trace(even, plan(even, tolerance=0.1))
+    inside = samples.pixels.images(np.ones((len(samples), 1)), 0.0)[0, ..., 0] > 0
+    np.testing.assert_allclose(image[inside], 0.5, rtol=3e-3)
+    np.testing.assert_allclose(image[~inside], 1, rtol=1e-6)
+
+
+@pytest.mark.parametrize("alpha", [0.15, 0.5])
+def test_the_count_of_the_plan_meets_its_tolerance(alpha):
+    """Against every pixel of the probe, on pixels that the plan has not looked at."""
+    brdf = MODELS["ggx"](diffuse=0.2, f0=[0.3, 0.2, 0.1], alpha=alpha)
+    scene = Scene(Orthographic(9), (Sphere(),), (Environment(sky()),))
+    counts = []
+    for tolerance in (0.1, 0.01):
+        made = plan(scene, brdf, tolerance=tolerance)
+        samples = trace(scene, made)
+        light, direction = texels(scene.probe)
+        every = type(made.sky)(direction.reshape(-1, 3), light.reshape(-1, 3))
+        exact = trace(scene, type(made)(made.decisions, tolerance, every))
+        found, truth = (np.asarray(compiled_shade(brdf, s)) for s in (samples, exact))
+        error = np.sqrt(np.mean((found - truth) ** 2) / np.mean(truth**2))
+        assert error < tolerance * 1.2
+        counts.append(made.directions)
+    assert counts[0] < counts[1]
+
+
+def test_a_sharper_lobe_takes_more_directions_and_too_sharp_a_one_is_told():
+    scene = Scene(Orthographic(9), (Sphere(),), (Environment(sky()),))
+    smooth, rough = (
+        plan(scene, MODELS["ggx"](f0=[0.5] * 3, alpha=alpha), tolerance=3e-4)
+        for alpha in (0.01, 0.6)
+    )
+    assert smooth.directions > rough.directions
+    assert "above the tolerance" in smooth.decisions["environment"].why
+    assert "as the BRDF is not known yet" in plan(scene).decisions["environment"].why
