@@ -37,8 +37,8 @@ if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
     from brdffit.cache import enable_compilation_cache as enable_compilation_cache
     from brdffit.databases import fetch as fetch
-    from brdffit.exports import export as export
     from brdffit.effects import Plan as Plan, plan as plan
+    from brdffit.exports import export as export
     from brdffit.fit import FitResult as FitResult, fit as fit
     from brdffit.fit.bootstrap import bootstrap as bootstrap
     from brdffit.fit.least_squares import least_squares as least_squares

@@ -108,7 +108,7 @@ def photographed(
     Raises:
         ValueError: It is known at other directions only.
     """
-    samples = trace(lit_sphere(RESOLUTION), len(data.channels))
+    samples = trace(lit_sphere(RESOLUTION), channels=len(data.channels))
     wi, wo = np.asarray(samples.wi[:, 0], float), np.asarray(samples.wo, float)
     f_r = evaluated(source, data, reader, wi, wo)
     value = (f_r * np.asarray(samples.weight[:, 0])).astype(np.float32)

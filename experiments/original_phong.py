@@ -190,7 +190,7 @@ def curves():
 
 def spheres(models, scene):
     """Images of one channel, NaN beside the sphere."""
-    samples = trace(scene, 1)
+    samples = trace(scene, channels=1)
     return {
         name: samples.pixels.images(np.asarray(compiled_shade(brdf, samples)))[0]
         for name, brdf in models.items()

@@ -80,7 +80,7 @@ def plan(
         console.print_line(sentence)
 
 
-def description(made: brdffit.Plan) -> dict:
+def description(made: "brdffit.Plan") -> dict:
     """A plan in names and numbers."""
     return {
         "tolerance": made.tolerance,
