@@ -14,6 +14,7 @@ The package reads from top to bottom; a module imports only from lines above its
     catalogue              models by name and in numbers
     optics, albedo         refractive indices of materials; integrals of a BRDF
     samples, images        weighted directions with values; linear images
+    spectrum, subset       spectral data in RGB; a share that stands for all samples
     scene                  camera, shapes, lights, surface detail
     effects                one effect per file: when a scene calls for it, what it adds
     render                 geometry pass, shading, images

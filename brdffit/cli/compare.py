@@ -4,7 +4,7 @@ from pathlib import Path
 
 import brdffit
 from brdffit.cli import console
-from brdffit.cli.options import Channels, Json, Out, words
+from brdffit.cli.options import Channels, Illuminant, Json, Out, Share, words
 
 MODELS = "lambert,oren_nayar,phong,blinn_phong,cook_torrance,beckmann,ggx"
 ALL = "all"
@@ -21,6 +21,8 @@ def compare(
     seed: int = 0,
     second_lobe: bool = False,
     channels: Channels = None,
+    illuminant: Illuminant = None,
+    samples: Share = None,
     out: Out = None,
     as_json: Json = False,
 ) -> int:
@@ -58,7 +60,7 @@ def compare(
         1 + len(names) + second_lobe + (PICTURES if out else 0)
     ) as step:
         step(f"reading {data.name}")
-        measurement = read_data(data, channels)
+        measurement = read_data(data, channels, illuminant, samples)
         if out:
             require_writable(out)
         comparison = brdffit.compare(

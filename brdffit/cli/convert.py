@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from brdffit.cli import console
-from brdffit.cli.options import Channels, Json
+from brdffit.cli.options import Channels, Illuminant, Json
 
 
 def convert(
@@ -12,6 +12,7 @@ def convert(
     /,
     *,
     channels: Channels = None,
+    illuminant: Illuminant = None,
     as_json: Json = False,
 ) -> None:
     """Write a measurement as a table (.csv), as MERL binary, or as an image (.exr).
@@ -30,10 +31,10 @@ def convert(
     require_writable(out.parent)
     with console.progress(2) as step:
         step(f"reading {source.name}")
-        data = read_data(source, channels)
+        data = read_data(source, channels, illuminant)
         step(f"writing {out.name}")
         out.parent.mkdir(parents=True, exist_ok=True)
-        sentence = write(source, data, out)
+        sentence = write(source, data, out, illuminant)
     if as_json:
         console.print_json({"file": str(out), "written": sentence})
     else:

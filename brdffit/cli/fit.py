@@ -7,7 +7,7 @@ from cyclopts import Parameter
 
 import brdffit
 from brdffit.cli import console
-from brdffit.cli.options import Channels, Json, Out, assignments
+from brdffit.cli.options import Channels, Illuminant, Json, Out, Share, assignments
 
 Words = Annotated[tuple[str, ...], Parameter(consume_multiple=True)]
 STEPS = 2  # reading and fitting
@@ -29,6 +29,8 @@ def fit(
     profile: str | None = None,
     bootstrap: int | None = None,
     channels: Channels = None,
+    illuminant: Illuminant = None,
+    samples: Share = None,
     out: Out = None,
     as_json: Json = False,
 ) -> int:
@@ -72,7 +74,7 @@ def fit(
     more = (profile is not None) + (bootstrap is not None)
     with console.progress(STEPS + more + (PICTURES if out else 0)) as step:
         step(f"reading {data.name}")
-        measurement = read_data(data, channels)
+        measurement = read_data(data, channels, illuminant, samples)
         if out:
             require_writable(out)
         step(f"fitting {model}")

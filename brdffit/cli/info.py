@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from brdffit.cli import console
-from brdffit.cli.options import Channels, Json, Out
+from brdffit.cli.options import Channels, Illuminant, Json, Out
 
 if TYPE_CHECKING:
     from brdffit.survey import Summary
@@ -17,6 +17,7 @@ def info(
     /,
     *,
     channels: Channels = None,
+    illuminant: Illuminant = None,
     out: Out = None,
     as_json: Json = False,
 ) -> None:
@@ -38,11 +39,12 @@ def info(
         step(f"reading {data.name}")
         kind = format_of(data)
         reader = READERS[kind]
-        measurement = read_data(data, channels)
+        measurement = read_data(data, channels, illuminant)
         if out:
             require_writable(out)
         step("looking at directions")
-        anywhere = None if channels else getattr(reader, "evaluate", None)
+        changed = channels or illuminant
+        anywhere = None if changed else getattr(reader, "evaluate", None)
         folded = getattr(reader, "RECIPROCAL", False)
         facts = summary(measurement, anywhere and partial(anywhere, data), folded)
         written = []

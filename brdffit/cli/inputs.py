@@ -20,19 +20,37 @@ from brdffit.readers import load
 from brdffit.samples import Measurement, Samples, pick_channels
 from brdffit.scene import Scene, lit_sphere, load_scene
 from brdffit.scene.values import whole
+from brdffit.spectrum import to_rgb
+from brdffit.subset import subset
 
 FIRST_LIGHT = (-0.48, 0.6, 0.64)  # upper left
 
 
-def read_data(path: Path, channels: str | None) -> Measurement | Samples:
-    """A measurement, in the channels named with commas between them, or in all.
+def read_data(
+    path: Path,
+    channels: str | None = None,
+    illuminant: str | None = None,
+    samples: int | None = None,
+) -> Measurement | Samples:
+    """A measurement as the options of a command ask for it.
+
+    Args:
+        path: File or folder.
+        channels: Names of the channels to use, with commas between them; all by
+            default.
+        illuminant: Light under which spectral data become RGB.
+        samples: Number of samples of a share that stands for all.
 
     Raises:
         ValueError: The content is wrong, or there is no such channel.
         OSError: The file cannot be read.
     """
     data = load(path)
-    return pick_channels(data, words(channels)) if channels else data
+    if illuminant:
+        data = to_rgb(data, illuminant)
+    if channels:
+        data = pick_channels(data, words(channels))
+    return data if samples is None else subset(data, samples)
 
 
 def saved_or_named(

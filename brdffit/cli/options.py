@@ -16,6 +16,20 @@ Channels = Annotated[
     str | None,
     Parameter("--channels", help="Names of the channels to use, as in R,G."),
 ]
+Illuminant = Annotated[
+    str | None,
+    Parameter(
+        "--illuminant",
+        help="Light under which spectral data become RGB, as D65; else as they are.",
+    ),
+]
+Share = Annotated[
+    int | None,
+    Parameter(
+        "--samples",
+        help="Use a random share of so many samples that stands for all. [all]",
+    ),
+]
 Settings = Annotated[
     tuple[str, ...],
     Parameter(

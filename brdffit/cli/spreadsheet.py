@@ -2,6 +2,7 @@
 
 import csv
 from collections.abc import Iterable, Sequence
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ def ranking_rows(comparison: Comparison) -> Iterable[Sequence[Any]]:
     yield (
         *("rank", "model", "held_out_error", "tied", "aicc", "bic"),
         *(f"rms_{name}" for name in residuals),
+        *("ciede2000", "delta_e_itp"),
         *("free_numbers", "converged", "seconds"),
     )
     for rank, entry in enumerate(comparison.entries, start=1):
@@ -35,6 +37,7 @@ def ranking_rows(comparison: Comparison) -> Iterable[Sequence[Any]]:
         yield (
             *(rank, result.model, entry.held_out, entry.tied, result.aicc, result.bic),
             *(result.rms[name] for name in residuals),
+            *(astuple(entry.colour) if entry.colour else ("", "")),
             *(len(result.labels), result.converged, result.seconds),
         )
 

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from brdffit.catalogue import from_name
 from brdffit.fit import FitResult
-from brdffit.fit.select import Comparison
+from brdffit.fit.select import Comparison, Entry
 from brdffit.parameters import parameters
 
 WORDY = (
@@ -89,9 +89,11 @@ def ranking_table(comparison: Comparison) -> Table:
     lowest = min(entry.result.aicc for entry in entries)
     several = sum(entry.tied for entry in entries) > 1
     known = comparison.best.chi_square is not None
+    shown = any(entry.colour for entry in entries)
     table = new_table(
         *("", "model", "", "held-out\nerror", "rms, all\ndata", "AICc above\nthe best"),
         *(["chi-square\nper value"] if known else []),
+        *(["CIEDE\n2000", "Delta E\nITP"] if shown else []),
         *("free\nnumbers", "seconds"),
     )
     for place, entry in enumerate(entries, start=1):
@@ -104,10 +106,18 @@ def ranking_table(comparison: Comparison) -> Table:
             f"{result.rms[comparison.residual]:#.4g}",
             f"{result.aicc - lowest:.4g}",
             *([f"{(result.chi_square or 0) / result.count:#.4g}"] if known else []),
+            *(colours(entry) if shown else []),
             str(len(result.labels)),
             f"{result.seconds:.1f}",
         )
     return table
+
+
+def colours(entry: Entry) -> tuple[str, str]:
+    """Colour differences of an entry, to two decimals; empty where there are none."""
+    if entry.colour is None:
+        return "", ""
+    return f"{entry.colour.ciede2000:.2f}", f"{entry.colour.itp:.2f}"
 
 
 def side_by_side(comparison: Comparison, console: Console) -> Iterator[Table]:

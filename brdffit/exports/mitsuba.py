@@ -19,7 +19,7 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
-from brdffit.exports.deviation import deviation
+from brdffit.exports.deviation import deviation, hemisphere
 from brdffit.exports.dressing import gloss
 from brdffit.exports.match import ROUGHNESSES, colour, match
 from brdffit.exports.material import Evaluate, Material, evaluator, in_rgb, plain
@@ -35,6 +35,7 @@ DESCRIPTION = "Mitsuba 3 BSDF, as XML"
 SUFFIX = ".xml"
 
 VARIANT = "scalar_rgb"
+BASE_PAIRS = 1000  # of directions on which bases of plastic are compared
 
 BOUNDS = {
     "base_color": (0.0, 1.0),
@@ -48,7 +49,8 @@ SEPARABLE = (
 )
 PLASTIC = (
     "The base of Mitsuba's roughplastic is lit and seen through the rough interface, "
-    "that of plastic_ggx through a smooth one."
+    "that of plastic_ggx through a smooth one; its reflectance is changed so that both "
+    "bases reflect the same on the whole."
 )
 GLASS = "Mitsuba's roughdielectric also lets light through, which f_r says nothing of."
 DISNEY = (
@@ -92,6 +94,8 @@ def candidates(brdf: Any) -> Iterator[tuple[Plugin, tuple[str, ...]]]:
     name = registry_name(brdf)
     if name in DIRECT:
         plugin = DIRECT[name](brdf)
+        if name == "plastic_ggx":
+            plugin = brightened(brdf, plugin)
         yield plugin, notes_of(brdf)
         return
     if name in ("ggx", "lambert+ggx_lobe"):
@@ -121,6 +125,31 @@ def notes_of(brdf: Any) -> tuple[str, ...]:
     if kind in special:
         notes.append(special[kind])
     return tuple(notes)
+
+
+def brightened(brdf: Any, plugin: Plugin) -> Plugin:
+    """A plastic whose base reflects on the whole what that of the model does.
+
+    Base reflectances d enter both as d / (1 - d F_in).
+    """
+    wi, wo = hemisphere(np.random.default_rng(2), (2, BASE_PAIRS))
+    colour, grey = np.asarray(brdf.diffuse, float), np.full(3, 0.5)
+
+    def ours(value: Any) -> Values:
+        return evaluator(dataclasses.replace(brdf, diffuse=jnp.asarray(value)))(wi, wo)
+
+    def theirs(value: Any) -> Values:
+        return by_mitsuba(plugin | {"diffuse_reflectance": rgb(value)})(wi, wo)
+
+    cosines, black = wi[:, 2:] * wo[:, 2:], np.zeros(3)
+    share = np.sum((ours(grey) - ours(black)) * cosines)
+    share /= np.sum((theirs(grey) - theirs(black)) * cosines)
+    inside = float(
+        1 - fresnel.diffuse_transmittance(jnp.asarray(brdf.eta)) / brdf.eta**2
+    )
+    wanted = share * colour / (1 - colour * inside)
+    changed = np.clip(wanted / (1 + wanted * inside), 0, 1)
+    return plugin | {"diffuse_reflectance": rgb(changed)}
 
 
 def nearest(brdf: AbstractBRDF) -> Plugin:

@@ -4,12 +4,14 @@ import dataclasses
 import json
 import os
 from collections.abc import Callable, Sequence
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from brdffit.files import replacing
+from brdffit.fit.appearance import ColourDifference, sphere_difference
 from brdffit.fit.blocks import usable
 from brdffit.fit.fit import default_residual, fit
 from brdffit.fit.misfit import misfit
@@ -34,11 +36,24 @@ class Entry:
             to the others, never saw.
         tied: True when it differs from the winner on those directions by no more than
             noise: neither in squared error nor in magnitude by two standard errors.
+        look: Computes `colour`.
     """
 
     result: FitResult
     held_out: float
     tied: bool
+    look: Callable[[], ColourDifference | None] | None = dataclasses.field(
+        default=None, repr=False, compare=False
+    )
+
+    @cached_property
+    def colour(self) -> ColourDifference | None:
+        """How differently a sphere looks from the photographed one.
+
+        Where the data show none, from that of the winner; None where the channels are
+        no colours. Computed when first asked for, because that is slow to begin.
+        """
+        return self.look() if self.look else None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,6 +105,7 @@ class Comparison:
             "second_lobe": self.second_lobe,
             "ranking": [
                 {"held_out": entry.held_out, "tied": entry.tied}
+                | {"colour": entry.colour and dataclasses.asdict(entry.colour)}
                 | entry.result.to_dict()
                 for entry in self.entries
             ],
@@ -172,7 +188,12 @@ def compare(
     best = fitted[0][1]
     return Comparison(
         entries=tuple(
-            Entry(result, _rms((result, squares)), _tied(squares, best))
+            Entry(
+                result,
+                _rms((result, squares)),
+                _tied(squares, best),
+                partial(sphere_difference, result.brdf, data, fitted[0][0].brdf),
+            )
             for result, squares in fitted
         ),
         residual=chosen.name,

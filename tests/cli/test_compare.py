@@ -19,7 +19,7 @@ def test_ranking_and_parameters_of_every_model_are_printed(run, chalk, tmp_path)
     status, out, err = run("compare", chalk, "--models", models, "--out", out_folder)
     words = " ".join(out.split())
     assert (status, err) == (0, "")
-    for heading in ("held-out", "rms, all", "AICc", "seconds"):
+    for heading in ("held-out", "rms, all", "AICc", "CIEDE", "Delta E", "seconds"):
         assert heading in words
     assert "1 lambert" in words or "1 oren_nayar" in words
     assert "parameter" in words
@@ -34,6 +34,8 @@ def test_ranking_and_parameters_of_every_model_are_printed(run, chalk, tmp_path)
     ranking = read_csv(out_folder / "ranking.csv")
     assert {row["model"] for row in ranking} == set(models.split(","))
     assert float(ranking[0]["held_out_error"]) == pytest.approx(0.01, rel=0.5)
+    assert [float(row["ciede2000"]) < 0.1 for row in ranking] == [True, True]
+    assert [float(row["delta_e_itp"]) < 0.5 for row in ranking] == [True, True]
     parameters = read_csv(out_folder / "parameters.csv")
     assert {(row["model"], row["parameter"]) for row in parameters} == {
         ("lambert", "albedo"),
@@ -51,6 +53,7 @@ def test_json_is_the_whole_comparison_and_nothing_else(run, chalk):
     assert (status, err) == (0, "")
     assert [entry["model"] for entry in comparison["ranking"]] == ["lambert"]
     assert comparison["seed"] == 7
+    assert set(comparison["ranking"][0]["colour"]) == {"ciede2000", "itp"}
 
 
 def test_the_default_models_are_in_the_catalogue():

@@ -23,3 +23,24 @@ def test_what_cannot_be_converted_is_refused_in_a_sentence(run, chalk, tmp_path)
     assert (status, out) == (2, "")
     assert "do not fill a grid or an image" in err
     assert not (tmp_path / "x.binary").exists()
+
+
+def test_spectral_data_become_rgb_under_a_stated_light(run, tmp_path):
+    bands = range(400, 701, 20)
+    names = ",".join(f"{band} nm" for band in bands)
+    header = "# brdffit table 1\n# angles: degrees\n# cosine: not included\n"
+    row = "30,0,10,180," + ",".join("0.2" for _ in bands)
+    path = tmp_path / "grey.csv"
+    path.write_text(f"{header}theta_i,phi_i,theta_o,phi_o,{names}\n{row}\n")
+    out = tmp_path / "rgb.csv"
+    status, _, err = run("convert", path, out, "--illuminant", "A")
+    assert (status, err) == (0, "")
+    data = brdffit.load(out)
+    assert data.channels == ("R", "G", "B")
+    assert data.name == "grey under A"
+    assert np.allclose(data.f_r, 0.2)
+    facts = json.loads(run("info", path, "--illuminant", "D65", "--json")[1])
+    assert facts["channels"] == ["R", "G", "B"]
+    status, _, err = run("info", out, "--illuminant", "D65")
+    assert status == 2
+    assert "must have wavelengths for channels" in err

@@ -56,6 +56,13 @@ def test_residual_and_starts_are_obeyed(run, chalk):
     assert (result["residual"], result["starts"]) == ("plain", 3)
 
 
+def test_a_share_of_the_samples_is_stated(run, chalk):
+    options = ("--samples", "40", "--json")
+    result = json.loads(run("fit", chalk, "--model", "lambert", *options)[1])
+    assert result["data"] == "chalk (40 of 81 samples)"
+    assert result["count"] == 40
+
+
 def test_a_fit_that_did_not_converge_has_status_1(run, chalk, monkeypatch):
     monkeypatch.setattr(brdffit, "fit", partial(brdffit.fit, max_steps=1))
     status, out, _ = run("fit", chalk, "--model", "phong")
