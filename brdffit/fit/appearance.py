@@ -109,6 +109,6 @@ def sphere_difference(
         return colour_difference(rendered[use], value[use])
     if reference is None:
         return None
-    samples = trace(lit_sphere(RESOLUTION, LIGHTS), brdf.channels)
+    samples = trace(lit_sphere(RESOLUTION, LIGHTS), channels=brdf.channels)
     found, wanted = (np.asarray(compiled_shade(b, samples)) for b in (brdf, reference))
     return colour_difference(found, wanted)
