@@ -97,8 +97,9 @@ def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
         def reflectance(linear):
             return _reflectance(layout, channel, linear, natural, block.wi, block.wo)
 
-        slopes = [jax.jvp(reflectance, (zero,), (e,))[1] for e in each]
-        return jnp.stack([reflectance(zero), *slopes])
+        # what the rows have in common is worked out once, not again in each of them
+        value, push = jax.lax.optimization_barrier(jax.linearize(reflectance, zero))
+        return jnp.stack([value, *(push(e) for e in each)])
 
     if not derivatives or not places:
         return basis(x)

@@ -17,7 +17,7 @@ from brdffit.fit.solve import BoundedLevenbergMarquardt
 from brdffit.fit.start import typical_box
 from brdffit.samples import Samples
 
-RTOL = {"float64": 1e-12, "float32": 1e-9}
+RTOL = {"float64": 1e-10, "float32": 1e-9}
 SCREEN = 4096  # samples on which many starts are sorted out
 FINALISTS = 3  # minima that are finished on all samples
 SAME_BASIN = 1e-3  # relative difference in cost below which two minima are one

@@ -69,7 +69,11 @@ def uncertainty(
     places = np.flatnonzero(asked)
     spans = np.where(np.isfinite(widths), widths, unit)
     bounded = bool(np.all(np.isfinite(widths[places])))
+    drift = np.zeros(len(labels))  # variance from directions the data do not see
     for direction in _lost(scaled, unit, spans, variance, places, unseen, bounded):
+        if bounded:
+            reach = WIDE / np.max(np.abs(direction))
+            drift[places] += (reach * direction * spans[places]) ** 2
         change = direction * spans[places] * relative[places]
         parts = _large(direction) | _large(change)
         involved, change = places[parts], change[parts]
@@ -92,6 +96,8 @@ def uncertainty(
         alone = np.flatnonzero(free | (np.arange(len(free)) == i))
         errors[i] = np.sqrt(_covariance(scaled, alone, variance, unseen)[i, i])
         errors[i] *= unit[i] * abs(slopes[i])
+    # one that takes a small part in a lost direction is as sure as that lets it be
+    errors = np.where(free, np.hypot(errors, np.sqrt(drift) * np.abs(slopes)), errors)
     errors[lost] = np.inf
 
     deviation = np.sqrt(np.diag(covariance))

@@ -66,3 +66,13 @@ def test_noise_can_hide_a_parameter():
 def test_without_bounds_noise_hides_nothing():
     found = errors([[4.0, 0.0], [0.0, 1e-4]], variance=1.0, widths=np.full(2, np.inf))
     assert found.undetermined == {}
+
+
+def test_what_drifts_along_a_lost_direction_is_not_called_sure():
+    """r = a + b / 50: b takes too small a part in the lost direction to be named."""
+    jacobian = np.array([[1.0, 50.0], [1.0, 50.0]])
+    found = errors(jacobian.T @ jacobian, variance=1e-12)
+    assert "b" not in found.undetermined
+    assert np.isinf(found.standard_errors[0])
+    # a may be anywhere within its interval of 10, and b a fiftieth of that
+    assert found.standard_errors[1] == pytest.approx(0.3 * 10 / 50, rel=0.01)

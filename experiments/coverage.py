@@ -1,0 +1,82 @@
+"""Does the 95 % interval of a fit hold the truth in 95 % of all noisy repetitions?
+
+One truth per model on a goniometer grid that determines all its parameters, off their
+bounds; 1 % noise, drawn anew with a fixed seed each time. The interval is the estimate
+plus and minus 1.96 standard errors. A share of 1,000 repetitions is itself known to
+0.7 percentage points. `z_deviation` is the scatter of the estimates in their own
+standard errors, which should be 1.
+
+    python -m experiments.coverage
+"""
+
+import jax.numpy as jnp
+import numpy as np
+
+import brdffit
+from brdffit import Goniometer, Noise, simulate_measurement
+from brdffit.models import MODELS
+from experiments.record import RESULTS, Record
+
+REFITS = 1000
+SEED = 11
+NOISE = 0.01  # relative
+NORMAL_95 = 1.959964
+GRID = Goniometer(
+    theta_i=(8, 25, 45, 65), theta_o=np.arange(2, 86, 7), phi=(0, 60, 120, 165, 180)
+)
+TRUTHS = {
+    "ggx": {"diffuse": (0.3, 0.2, 0.1), "f0": (0.06, 0.05, 0.04), "alpha": 0.25},
+    "oren_nayar": {"albedo": (0.6, 0.4, 0.2), "sigma": 0.35},
+    "phong": {
+        "diffuse": (0.3, 0.2, 0.1),
+        "specular": (0.2, 0.25, 0.3),
+        "exponent": 30.0,
+    },
+    "cook_torrance": {
+        "diffuse": (0.3, 0.2, 0.1),
+        "specular": (0.5, 0.4, 0.6),
+        "f0": 0.15,
+        "alpha": 0.3,
+    },
+}
+
+
+def deviations(name, count, starts=2):
+    """``(estimate - truth) / standard error`` of every parameter and repetition."""
+    truth = TRUTHS[name]
+    brdf = MODELS[name](**{n: jnp.asarray(v) for n, v in truth.items()})
+    found = {}
+    for seed in range(count):
+        data = simulate_measurement(brdf, GRID, Noise(NOISE, seed=SEED + seed))
+        result = brdffit.fit(name, data, residual="plain", starts=starts)
+        for parameter, value in truth.items():
+            away = result.parameters[parameter] - np.array(value)
+            z = np.atleast_1d(away / result.standard_errors[parameter])
+            for place, number in enumerate(z):
+                label = parameter if len(z) == 1 else f"{parameter}[{place}]"
+                found.setdefault(label, []).append(number)
+    return {label: np.array(z) for label, z in found.items()}
+
+
+def rows_of(name, count):
+    """A row for each parameter."""
+    for label, z in deviations(name, count).items():
+        yield {
+            "model": name,
+            "parameter": label,
+            "refits": count,
+            "coverage": float(np.mean(np.abs(z) <= NORMAL_95)),
+            "z_mean": float(np.mean(z)),
+            "z_deviation": float(np.std(z)),
+        }
+
+
+def main(folder=RESULTS / "coverage", count=REFITS):
+    """Write the table."""
+    record = Record(folder, SEED)
+    record.table([row for name in TRUTHS for row in rows_of(name, count)])
+    record.close(refits=count, samples=len(GRID.directions()[0]), noise=NOISE)
+
+
+if __name__ == "__main__":
+    main()
