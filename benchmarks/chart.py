@@ -1,0 +1,73 @@
+"""Figures of benchmarks: bars of time, one panel per case; curves of growth."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from brdffit.plots.style import COLOURS, NO_DATA, new_figure
+from experiments.record import styled
+
+WIDTH, LINE = 4.6, 0.21  # inches of a panel and of a bar
+
+
+@styled
+def bars(rows, keys: Sequence[str], columns: int = 2):
+    """Median time of every contestant, on a logarithmic axis, the fastest on top.
+
+    Bars of brdffit are coloured; contestants with a wrong answer are named so.
+
+    Args:
+        rows: Lines of the table.
+        keys: Columns that tell the cases apart.
+        columns: Panels beside each other.
+    """
+    cases = list(dict.fromkeys(tuple(row[key] for key in keys) for row in rows))
+    most = max(sum(_case(row, keys) == case for row in rows) for case in cases)
+    lines = -(-len(cases) // columns)
+    columns = min(columns, len(cases))
+    figure = new_figure(WIDTH * columns, (0.8 + LINE * most) * lines)
+    panels = figure.subplots(lines, columns, squeeze=False).ravel()
+    for axes, case in zip(panels, cases, strict=False):
+        _panel(axes, [row for row in rows if _case(row, keys) == case])
+        axes.set_title(_title(keys, case))
+    for axes in panels[len(cases) :]:
+        axes.set_axis_off()
+    return figure
+
+
+def _case(row, keys):
+    return tuple(row[key] for key in keys)
+
+
+def _title(keys, case) -> str:
+    words = []
+    for key, value in zip(keys, case, strict=True):
+        if isinstance(value, str):
+            words.append(value)
+        else:
+            words.append(f"{value:,} {key if value != 1 else key.rstrip('s')}")
+    return ", ".join(words)
+
+
+def _panel(axes, rows) -> None:
+    rows = sorted(rows, key=lambda row: row["ms"])
+    times = np.array([row["ms"] for row in rows])
+    names = [
+        row["contestant"] + ("" if row["answer"] == "right" else " (wrong answer)")
+        for row in rows
+    ]
+    mine = [row["contestant"].startswith("brdffit") for row in rows]
+    axes.barh(names, times, color=[COLOURS[0] if own else NO_DATA for own in mine])
+    for place, time in enumerate(times):
+        axes.annotate(
+            f"{time:,.3g}" if time < 1000 else f"{time:,.0f}",
+            (time, place),
+            xytext=(3, 0),
+            textcoords="offset points",
+            va="center",
+            size=7,
+        )
+    axes.set(xscale="log", xlim=(times.min() / 2, times.max() * 4))
+    axes.invert_yaxis()
+    axes.grid(visible=False, axis="y")
+    axes.set_xlabel("time of one fit [ms]")

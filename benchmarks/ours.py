@@ -1,0 +1,57 @@
+"""brdffit as a contestant: its compiled solve alone, and the whole call."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+import brdffit
+from benchmarks.measure import Contestant
+from benchmarks.problems import Problem
+from brdffit.fit.blocks import blocks
+from brdffit.fit.fit import MAX_STEPS, bounded_problem
+from brdffit.fit.search import RTOL, solve
+
+OWN = (0.0,)  # the tolerance is the engine's own
+
+
+def solve_alone(problem: Problem, precision: str) -> Contestant:
+    """The program that `fit` runs, on samples laid out before, from one start."""
+    samples = problem.samples
+    use = np.ones(samples.value.shape, bool)
+    with jax.enable_x64(True):
+        laid_out = blocks(samples, use, problem.residual, np.dtype(precision))
+        bounded = bounded_problem(problem.layout, problem.start, problem.residual, {})
+        ready = jax.tree.map(jnp.asarray, bounded(blocks=laid_out))
+        starts = jnp.asarray(problem.x0)[None]
+
+    def run(tolerance):
+        del tolerance
+        with jax.enable_x64(True):
+            met = solve(ready, starts, rtol=RTOL[precision], max_steps=MAX_STEPS)
+        return np.asarray(met.x)[0], int(met.steps[0])
+
+    return Contestant(f"brdffit {precision}", run, tolerances=OWN)
+
+
+def whole_fit(problem: Problem, precision: str, starts: int = 1) -> Contestant:
+    """`brdffit.fit` from samples to errors; with many starts it is told none."""
+    model = (
+        problem.start
+        if starts == 1
+        else brdffit.parameters.registry_name(problem.start)
+    )
+
+    def run(tolerance):
+        del tolerance
+        result = brdffit.fit(
+            model,
+            problem.samples,
+            residual=problem.residual,
+            starts=starts,
+            precision=precision,
+        )
+        return problem.point(result.brdf), result.steps
+
+    plural = "" if starts == 1 else "s"
+    name = f"brdffit.fit {precision}, {starts} start{plural}"
+    return Contestant(name, run, tolerances=OWN)
