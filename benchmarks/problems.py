@@ -1,4 +1,4 @@
-"""What is fitted: simulated data with known truth, and where every contestant starts."""
+"""What is fitted: simulated data with known truth, and where all start."""
 
 import dataclasses
 from functools import cached_property
