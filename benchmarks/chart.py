@@ -1,20 +1,20 @@
-"""Figures of benchmarks: bars of time, one panel per case; curves of growth."""
+"""Figures of benchmarks: the time of each contestant, one panel per case."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from brdffit.plots.style import COLOURS, NO_DATA, new_figure
+from brdffit.plots.style import COLOURS, MUTED, new_figure
 from experiments.record import styled
 
-WIDTH, LINE = 4.6, 0.21  # inches of a panel and of a bar
+WIDTH, LINE = 4.6, 0.21  # inches of a panel and of a contestant
 
 
 @styled
-def bars(rows, keys: Sequence[str], columns: int = 2):
-    """Median time of every contestant, on a logarithmic axis, the fastest on top.
+def dots(rows, keys: Sequence[str], columns: int = 2):
+    """Median time of every contestant, the fastest on top, with a line over its turns.
 
-    Bars of brdffit are coloured; contestants with a wrong answer are named so.
+    brdffit is coloured; contestants with a wrong answer are named so.
 
     Args:
         rows: Lines of the table.
@@ -56,18 +56,21 @@ def _panel(axes, rows) -> None:
         row["contestant"] + ("" if row["answer"] == "right" else " (wrong answer)")
         for row in rows
     ]
-    mine = [row["contestant"].startswith("brdffit") for row in rows]
-    axes.barh(names, times, color=[COLOURS[0] if own else NO_DATA for own in mine])
+    for place, row in enumerate(rows):
+        own = row["contestant"].startswith("brdffit")
+        colour = COLOURS[0] if own else MUTED
+        ends = row["least_ms"], row["most_ms"]
+        axes.plot(ends, (place, place), color=colour, linewidth=1)
+        axes.plot(row["ms"], place, "o", color=colour, markersize=5)
+    axes.set_yticks(range(len(rows)), names)
     for place, time in enumerate(times):
         axes.annotate(
             f"{time:,.3g}" if time < 1000 else f"{time:,.0f}",
             (time, place),
-            xytext=(3, 0),
+            xytext=(0, 4),
             textcoords="offset points",
-            va="center",
+            ha="center",
             size=7,
         )
-    axes.set(xscale="log", xlim=(times.min() / 2, times.max() * 4))
-    axes.invert_yaxis()
-    axes.grid(visible=False, axis="y")
+    axes.set(xscale="log", ylim=(len(rows) - 0.5, -0.9))
     axes.set_xlabel("time of one fit [ms]")

@@ -179,6 +179,8 @@ def row(entry: Entry, ours: dict[str, Entry]) -> dict[str, object]:
         "steps": entry.steps,
         "tolerance": f"{entry.tolerance:.0e}",
         "ms": 1e3 * float(np.median(entry.seconds)),
+        "least_ms": 1e3 * min(entry.seconds),
+        "most_ms": 1e3 * max(entry.seconds),
         "wall_ms": 1e3 * float(np.median(entry.wall)),
         "first_s": round(entry.first, 2),
     }

@@ -8,7 +8,8 @@ import brdffit
 from benchmarks.measure import Contestant
 from benchmarks.problems import Problem
 from brdffit.fit.blocks import blocks
-from brdffit.fit.fit import MAX_STEPS, bounded_problem
+from brdffit.fit.conditions import bounded_problem
+from brdffit.fit.fit import MAX_STEPS
 from brdffit.fit.search import RTOL, solve
 
 OWN = (0.0,)  # the tolerance is the engine's own

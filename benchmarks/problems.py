@@ -2,18 +2,29 @@
 
 import dataclasses
 from functools import cached_property
+from pathlib import Path
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
 import brdffit
-from brdffit import AbstractBRDF, Goniometer, Noise, Samples
+from brdffit import (
+    AbstractBRDF,
+    Goniometer,
+    Measurement,
+    Noise,
+    Samples,
+    half_difference,
+)
 from brdffit.fit.blocks import usable
+from brdffit.fit.plain import residual_vector
 from brdffit.fit.residual import Residual, cosine_weighted, log
-from brdffit.fit.transforms import Layout, pack, to_natural, to_solver, unpack
+from brdffit.fit.transforms import Layout, pack, to_solver
 from brdffit.parameters import replace
+from brdffit.render.shading import compiled_shade
 from brdffit.samples import as_samples
+from brdffit.writers import merl as merl_writer
 
 NOISE = 0.01  # standard deviation as a share of each value
 SEED = 1
@@ -61,7 +72,7 @@ class Problem:
 
     def point(self, brdf: AbstractBRDF) -> np.ndarray:
         """The values of a model as a point."""
-        return to_solver(self.layout, pack(brdf))
+        return to_solver(self.layout, pack(self.layout, brdf))
 
     @cached_property
     def arrays(self) -> tuple[np.ndarray, ...]:
@@ -72,23 +83,18 @@ class Problem:
 
     @cached_property
     def vector(self):
-        """Compiled residual vector of a point, as anyone would write it in JAX.
+        """Compiled residual vector of a point, without any structure.
 
         To be called, like all that is made of it, with double precision enabled.
         """
-        wi, wo, weight, value = (jnp.asarray(array) for array in self.arrays)
-        cosines = jnp.asarray(self.samples.cosine, float)[:, None], wo[:, 2:]
-        target = self.residual.transform(value, *cosines)
-        base = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), self.start)
-        places = tuple(range(len(self.x0)))
-
-        def vector(x):
-            brdf = unpack(self.layout, base, to_natural(self.layout, x, places))
-            f_r = jax.vmap(jax.vmap(brdf, (0, None)))(wi, wo)
-            predicted = jnp.sum(f_r * weight, axis=1)
-            return (self.residual.transform(predicted, *cosines) - target).ravel()
-
-        return jax.jit(vector)
+        names = ("wi", "wo", "weight", "value")
+        double = dict(zip(names, self.arrays, strict=True))
+        cosine = np.asarray(self.samples.cosine, np.float64)
+        samples = dataclasses.replace(self.samples, cosine=cosine, **double)
+        every = np.ones(samples.value.shape, bool)
+        return jax.jit(
+            residual_vector(self.layout, self.start, samples, every, self.residual)
+        )
 
     def cost(self, x: np.ndarray) -> float:
         """Half the sum of squares at a point."""
@@ -114,6 +120,22 @@ def goniometer(model: str, samples: int = 100_000) -> Problem:
     )
     table = brdffit.simulate_measurement(_truth(model), setup, Noise(NOISE, seed=SEED))
     return _problem(model, as_samples(table), log)
+
+
+def write_merl(model: str, path: Path) -> None:
+    """A MERL file of a known model with noise, in place of a measured one."""
+    wi, wo, _ = half_difference.cells()
+    blank = Measurement(wi=wi, wo=wo, f_r=np.ones((len(wi), 3), np.float32))
+    f_r, _ = Noise(NOISE, seed=SEED)(compiled_shade(_truth(model), as_samples(blank)))
+    above = (wi[:, 2] > 0) & (wo[:, 2] > 0)
+    mask = np.broadcast_to(above[:, None], f_r.shape)
+    merl_writer.save(dataclasses.replace(blank, f_r=f_r, mask=mask), path)
+
+
+def merl(model: str, path: Path, every: int = 1) -> Problem:
+    """One in so many cells of a MERL file, compared by log."""
+    samples = as_samples(brdffit.load(path))
+    return _problem(model, samples.take(np.arange(0, len(samples), every)), log)
 
 
 def _truth(model: str) -> AbstractBRDF:

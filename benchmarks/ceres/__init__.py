@@ -5,6 +5,7 @@ import functools
 import shutil
 import subprocess
 import tempfile
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -78,23 +79,21 @@ class Fit:
         return (x if steps >= 0 else np.full_like(x, np.nan)), steps
 
 
-def contestant(
-    problem: Problem, automatic: bool = False, threads: int = 1
-) -> Contestant:
-    """Levenberg-Marquardt on dense normal equations, its fastest for so few unknowns.
+def contestants(problem: Problem) -> list[Contestant]:
+    """Ceres with derivatives by hand on one thread and on two, and with its own.
 
-    Args:
-        problem: What to solve.
-        automatic: Let Ceres differentiate instead of the derivatives by hand.
-        threads: Number of threads that evaluate residuals.
+    Levenberg-Marquardt on dense normal equations, its fastest for so few unknowns. None
+    where it cannot be built; a sentence says why.
     """
-    fit = Fit(problem, automatic)
-    kind = "autodiff" if automatic else "analytic"
-    return Contestant(
-        f"Ceres {kind}" + (f", {threads} threads" if threads > 1 else ""),
-        lambda tolerance: fit.solve(threads, tolerance),
-        threads,
-    )
+    if why := why_absent():
+        print(why)
+        return []
+    analytic, automatic = Fit(problem, automatic=False), Fit(problem, automatic=True)
+    return [
+        Contestant("Ceres analytic", partial(analytic.solve, 1)),
+        Contestant("Ceres analytic, 2 threads", partial(analytic.solve, 2), threads=2),
+        Contestant("Ceres autodiff", partial(automatic.solve, 1)),
+    ]
 
 
 def _pointer(array: np.ndarray) -> ctypes.c_void_p:

@@ -76,6 +76,7 @@ class Analytic final
       for (int j = 0; j < kLinear; ++j) {
         value += linear[kChannels * j + c] * sums[c][j + 1];
       }
+      if (kLog && !(value > 0.0)) return false;  // Ceres then takes a shorter step
       residuals[c] = (kLog ? std::log(value) : value) - sample_.target[c];
       if (!slopes_wanted) continue;
       const double outer = kLog ? 1.0 / value : 1.0;
@@ -122,6 +123,7 @@ struct Value {
       }
     }
     for (int c = 0; c < kChannels; ++c) {
+      if (kLog && !(value[c] > T(0.0))) return false;
       residuals[c] = (kLog ? log(value[c]) : value[c]) - sample.target[c];
     }
     return true;
