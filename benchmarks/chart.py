@@ -11,7 +11,7 @@ WIDTH, LINE = 4.6, 0.21  # inches of a panel and of a contestant
 
 
 @styled
-def dots(rows, keys: Sequence[str], columns: int = 2):
+def dots(rows, keys: Sequence[str], what: str = "fit", columns: int = 2):
     """Median time of every contestant, the fastest on top, with a line over its turns.
 
     brdffit is coloured; contestants with a wrong answer are named so.
@@ -19,6 +19,7 @@ def dots(rows, keys: Sequence[str], columns: int = 2):
     Args:
         rows: Lines of the table.
         keys: Columns that tell the cases apart.
+        what: What the time is taken of.
         columns: Panels beside each other.
     """
     cases = list(dict.fromkeys(tuple(row[key] for key in keys) for row in rows))
@@ -29,6 +30,7 @@ def dots(rows, keys: Sequence[str], columns: int = 2):
     panels = figure.subplots(lines, columns, squeeze=False).ravel()
     for axes, case in zip(panels, cases, strict=False):
         _panel(axes, [row for row in rows if _case(row, keys) == case])
+        axes.set_xlabel(f"time of one {what} [ms]")
         axes.set_title(_title(keys, case))
     for axes in panels[len(cases) :]:
         axes.set_axis_off()
@@ -73,4 +75,3 @@ def _panel(axes, rows) -> None:
             size=7,
         )
     axes.set(xscale="log", ylim=(len(rows) - 0.5, -0.9))
-    axes.set_xlabel("time of one fit [ms]")

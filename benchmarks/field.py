@@ -23,7 +23,11 @@ def field(problem: Problem) -> list[Contestant]:
 
 
 def timed(problem: Problem, case: dict, turns: int, contestants=None) -> list[dict]:
-    """Lines of a table, each beginning with what tells the case apart."""
+    """Lines of a table, each beginning with what tells the case apart.
+
+    All are compared with the first two contestants, which solve in single and in double
+    precision.
+    """
     entries = contest(contestants or field(problem), problem.cost, turns)
     ours = dict(zip(("float32", "float64"), entries[:2], strict=True))
     return [case | row(entry, ours) for entry in entries]

@@ -106,7 +106,7 @@ class Problem:
 def sphere(model: str, lights: int, resolution: int = 128) -> Problem:
     """Image of a sphere under the first few lights; every lit pixel counts."""
     scene = brdffit.lit_sphere(resolution, LIGHTS[:lights])
-    image = brdffit.simulate_image(_truth(model), scene, Noise(NOISE, seed=SEED))
+    image = brdffit.simulate_image(truth(model), scene, Noise(NOISE, seed=SEED))
     return _problem(model, image, cosine_weighted)
 
 
@@ -118,7 +118,7 @@ def goniometer(model: str, samples: int = 100_000) -> Problem:
         theta_o=np.linspace(2, 80, side),
         phi=np.linspace(0, 180, 5 * side),
     )
-    table = brdffit.simulate_measurement(_truth(model), setup, Noise(NOISE, seed=SEED))
+    table = brdffit.simulate_measurement(truth(model), setup, Noise(NOISE, seed=SEED))
     return _problem(model, as_samples(table), log)
 
 
@@ -126,7 +126,7 @@ def write_merl(model: str, path: Path) -> None:
     """A MERL file of a known model with noise, in place of a measured one."""
     wi, wo, _ = half_difference.cells()
     blank = Measurement(wi=wi, wo=wo, f_r=np.ones((len(wi), 3), np.float32))
-    f_r, _ = Noise(NOISE, seed=SEED)(compiled_shade(_truth(model), as_samples(blank)))
+    f_r, _ = Noise(NOISE, seed=SEED)(compiled_shade(truth(model), as_samples(blank)))
     above = (wi[:, 2] > 0) & (wo[:, 2] > 0)
     mask = np.broadcast_to(above[:, None], f_r.shape)
     merl_writer.save(dataclasses.replace(blank, f_r=f_r, mask=mask), path)
@@ -138,7 +138,8 @@ def merl(model: str, path: Path, every: int = 1) -> Problem:
     return _problem(model, samples.take(np.arange(0, len(samples), every)), log)
 
 
-def _truth(model: str) -> AbstractBRDF:
+def truth(model: str) -> AbstractBRDF:
+    """The model that the data are simulated from."""
     return brdffit.MODELS[model](**TRUTHS[model])
 
 
@@ -146,9 +147,8 @@ def _problem(model: str, samples: Samples, residual: Residual) -> Problem:
     samples = dataclasses.replace(samples, sigma=None)
     whole = usable(samples, residual).all(axis=1)
     samples = dataclasses.replace(samples.take(whole), mask=None, pixels=None)
-    truth = _truth(model)
     start = {
-        name: np.full_like(np.asarray(value, float), STARTS.get(name, 0.5))
-        for name, value in brdffit.parameters.values(truth).items()
+        name: jnp.full_like(value, STARTS.get(name, 0.5))
+        for name, value in brdffit.parameters.values(truth(model)).items()
     }
-    return Problem(replace(truth, start), samples, residual)
+    return Problem(replace(truth(model), start), samples, residual)
