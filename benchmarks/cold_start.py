@@ -27,7 +27,7 @@ from experiments.record import Record
 
 IMPORTS = "import of jax and optimistix"
 EMPTY, WARM = "brdffit fit, empty cache", "brdffit fit, warm cache"
-MODEL, TURNS = "ggx", 9
+MODEL, TURNS = "ggx", 5
 CLOSE = 0.02  # relative distance to the true alpha of a right answer
 
 

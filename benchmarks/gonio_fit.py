@@ -11,7 +11,7 @@ from benchmarks.problems import SEED, goniometer
 from benchmarks.record import RESULTS, facts
 from experiments.record import Record
 
-SAMPLES, TURNS = 100_000, 9
+SAMPLES, TURNS = 100_000, 7
 
 
 def main(folder=RESULTS / "gonio_fit", samples=SAMPLES, turns=TURNS, model="ggx"):

@@ -21,7 +21,7 @@ MODEL = "ggx"
 SAMPLES = (10**3, 10**4, 10**5, 10**6, 10**7)
 STARTS = (1, 4, 16, 64, 256)
 LINEAR = 1e5  # samples from which on time should grow in proportion
-TURNS = 5
+TURNS = 3
 
 
 def one(samples: int, starts: int, precision: str, turns: int) -> dict:

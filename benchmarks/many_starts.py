@@ -13,7 +13,7 @@ from benchmarks.problems import SEED, sphere
 from benchmarks.record import RESULTS, facts
 from experiments.record import Record
 
-MODELS, STARTS, TURNS = ("ggx", "ward_duer"), 64, 11
+MODELS, STARTS, TURNS = ("ggx", "ward_duer"), 64, 7
 
 
 def main(folder=RESULTS / "many_starts", models=MODELS, turns=TURNS, resolution=128):

@@ -45,7 +45,7 @@ STARTS = {"alpha": 0.64, "alpha_x": 0.64, "alpha_y": 0.64, "sigma": 0.8}  # othe
 
 @dataclasses.dataclass(frozen=True)
 class Problem:
-    """Samples of which every value counts, and a start.
+    """Samples of which every value counts the same, and a start.
 
     A point is a vector ``x`` of all parameters in the coordinates of brdffit's solver:
     the logarithm of widths, everything else as it is. All contestants move in it.
@@ -144,7 +144,7 @@ def truth(model: str) -> AbstractBRDF:
 
 
 def _problem(model: str, samples: Samples, residual: Residual) -> Problem:
-    samples = dataclasses.replace(samples, sigma=None)
+    samples = dataclasses.replace(samples, sigma=None, solid_angle=None)
     whole = usable(samples, residual).all(axis=1)
     samples = dataclasses.replace(samples.take(whole), mask=None, pixels=None)
     start = {

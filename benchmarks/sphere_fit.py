@@ -19,7 +19,7 @@ CASES = (
     ("oren_nayar", 1),
     ("cook_torrance", 3),
 )
-TURNS = 21
+TURNS = 11
 
 
 def main(folder=RESULTS / "sphere_fit", cases=CASES, turns=TURNS, resolution=128):
