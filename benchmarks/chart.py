@@ -30,7 +30,7 @@ def dots(rows, keys: Sequence[str], what: str = "fit", columns: int = 2):
     panels = figure.subplots(lines, columns, squeeze=False).ravel()
     for axes, case in zip(panels, cases, strict=False):
         _panel(axes, [row for row in rows if _case(row, keys) == case])
-        axes.set_xlabel(f"time of one {what} [ms]")
+        axes.set_xlabel(f"processor time of one {what} [ms]")
         axes.set_title(_title(keys, case))
     for axes in panels[len(cases) :]:
         axes.set_axis_off()

@@ -2,10 +2,9 @@
 
 Mitsuba fits its `roughplastic` (diffuse in three channels and alpha) to a sphere of
 128 x 128 pixels that it rendered itself, without noise, by reverse-mode gradients and
-Adam at the best of three rates, until all four parameters stay within 1 % of the truth
-for ten steps.
-brdffit fits its `plastic_ggx`, the same reflectance, to its own image with 1 % of noise
-until it has converged. Both use one thread.
+Adam at each of three rates, until all four parameters stay within 1 % of the truth for
+ten steps. brdffit fits its `plastic_ggx`, the same reflectance, to its own image with
+1 % of noise until it has converged. Both use one thread.
 
 Mitsuba's variants that differentiate need LLVM; where it is not found, or is a version
 that stops the process, the benchmark ends with a sentence. The environment variable
@@ -103,7 +102,7 @@ def descend(mi, dr, rate: float) -> dict:
 
 
 def search() -> list[dict]:
-    """Every rate, several times; the first of all is run before, for what it compiles."""
+    """Every rate, several times, after a run that is not timed and compiles."""
     import drjit as dr
     import mitsuba as mi
 

@@ -91,7 +91,9 @@ def contestants(problem: Problem) -> list[Contestant]:
     analytic, automatic = Fit(problem, automatic=False), Fit(problem, automatic=True)
     return [
         Contestant("Ceres analytic", partial(analytic.solve, 1)),
-        Contestant("Ceres analytic, 2 threads", partial(analytic.solve, 2), threads=2),
+        Contestant(
+            "Ceres, 2 threads, on the wall", partial(analytic.solve, 2), threads=2
+        ),
         Contestant("Ceres autodiff", partial(automatic.solve, 1)),
     ]
 
