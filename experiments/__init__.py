@@ -6,8 +6,12 @@
     metal_highlight    how does a metal's highlight end, with Beckmann and with GGX?
     resamplings        how far do fits differ between two resamplings of one run?
     anisotropy         which way does a field of tangents stretch a highlight?
+    merl_ranking       which models fit stand-ins for MERL materials best, and how fast?
+    curet_matte        how much does a rough model gain over Lambert's on matte samples?
+    ball_gloss         how many lobes does the gloss of a photographed ball take?
 
 Beside the experiments stand what some of them share: `record` writes results,
 `hard_cases` lists directions and parameters, `textbook` has the formulas as they are
-printed, and `hard_cases_truth` makes the file of the same name with a hundred digits.
+printed, `hard_cases_truth` makes the file of the same name with a hundred digits, and
+`merl_standins` makes materials for MERL files.
 """

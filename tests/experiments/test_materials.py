@@ -1,0 +1,60 @@
+"""Experiments on measured materials, each in a reduced version."""
+
+import csv
+import tomllib
+
+import jax
+import pytest
+
+from experiments import ball_gloss, curet_matte, merl_ranking, merl_standins
+from tests.data import shared_data
+
+
+@pytest.fixture(autouse=True)
+def as_a_script(monkeypatch):
+    """Only the package must spell out every broadcast; no program is kept."""
+    monkeypatch.setenv("BRDFFIT_CACHE", "off")
+    with jax.numpy_rank_promotion("allow"):
+        yield
+
+
+def table(folder, name="table"):
+    assert "seconds" in tomllib.loads((folder / "run.toml").read_text())
+    assert (folder / "figure.png").stat().st_size > 1000
+    with open(folder / f"{name}.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_merl_stand_ins_are_read_back_whole_and_fitted(tmp_path, monkeypatch):
+    shared_data("merl_standins")
+    monkeypatch.setattr(merl_ranking, "RESIDUALS", ("log",))
+    models = ("lambert", "blinn_phong")
+    merl_ranking.main(tmp_path, count=1, models=models, samples=400)
+    rows = table(tmp_path, "fits")
+    assert [row["identical"] for row in rows] == ["True"] * 2
+    errors = {(row["residual"], row["model"]): float(row["rms"]) for row in rows}
+    assert errors["log", "blinn_phong"] < errors["log", "lambert"]
+    best = table(tmp_path)[0]
+    assert (best["model"], best["best_on"]) == ("blinn_phong", "1")
+
+
+def test_stand_ins_are_spread_over_the_list():
+    shared_data("merl_standins")
+    chosen = merl_ranking.chosen(20)
+    assert len(set(chosen)) == 20
+    assert {chosen[0], chosen[-1]} <= set(merl_standins.names())
+
+
+def test_oren_nayar_gains_on_a_matte_sample(tmp_path):
+    shared_data("curet")
+    curet_matte.main(tmp_path, samples=(10,), models=("lambert", "oren_nayar"))
+    (row,) = table(tmp_path)
+    assert float(row["oren_nayar_gain"]) > 2.5
+
+
+def test_a_ball_without_gloss_misses_the_highlight(tmp_path):
+    shared_data("sphere_photos", "diligent_ball")
+    ball_gloss.main(tmp_path, models=("lambert",), starts=1)
+    (row,) = table(tmp_path)
+    assert float(row["image_error_percent"]) == pytest.approx(13.8, abs=0.2)
+    assert float(row["in_highlight_percent"]) > 5 * float(row["elsewhere_percent"])
