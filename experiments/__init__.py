@@ -5,6 +5,10 @@
     original_phong     when does the original Phong model give wrong results?
     metal_highlight    how does a metal's highlight end, with Beckmann and with GGX?
     resamplings        how far do fits differ between two resamplings of one run?
+    six_materials      how do six materials look in one lit scene, and at what price?
+    shadow_maps        how do shadow maps come closer to the exact shadow?
+    probe_directions   how many directions does a light probe take, per roughness?
+    classic_scenes     what do the classic scenes of ray tracing look like?
     anisotropy         which way does a field of tangents stretch a highlight?
     merl_ranking       which models fit stand-ins for MERL materials best, and how fast?
     curet_matte        how much does a rough model gain over Lambert's on matte samples?

@@ -143,7 +143,7 @@ def follow(
         origin, direction, pixels = origin[bright], direction[bright], pixels[bright]
         path = path.take(bright)
         live = meet(origin, direction)
-        lost = np.setdiff1d(np.arange(len(pixels)), live.ray)
+        lost = live.missed(len(pixels))
         skies.append((pixels[lost], direction[lost], path.take(lost)))
         path = path.take(live.ray)
         live = live._replace(ray=pixels[live.ray])

@@ -24,8 +24,9 @@ from brdffit.models.base import AbstractBRDF
 
 NAME = "environment"
 LEAST, MOST = 16, 4096  # directions
-TEXELS = 2**19  # most pixels of the probe that all count in the reference
-POINTS = 16  # at which quadrature is tried
+TEXELS = 2**17  # most pixels of the probe that all count in the reference
+MARGIN = 1.5  # below the tolerance, because few points are looked at
+POINTS = 48  # at which quadrature is tried
 ASSUMED = "ggx"  # what a surface is made of while its BRDF is not known
 
 
@@ -39,8 +40,8 @@ def decide(view: View) -> Decision:
     w = jnp.array([0.0, 0.0, 1.0])
     cost = number * (operations(brdf, w, w) + 3 * view.channels)
     met = f"they leave an error of {error:.2g}"
-    if error > view.tolerance:
-        met += f", above the tolerance: more than {MOST} would be needed"
+    if MARGIN * error > view.tolerance:
+        met += f", too near the tolerance or above it: more than {MOST} are needed"
     why = f"there is a light probe, by {number} directions; {met}"
     if view.brdf is None:
         why += f" for {ASSUMED} with its usual values, as the BRDF is not known yet"
@@ -66,13 +67,13 @@ def count(view: View) -> tuple[int, float]:
 
     The image is tried at a few points, for the worst BRDF that counts, against every
     pixel of the probe; shadows are not looked at. The number is a power of two, the
-    least from which on all meet the tolerance.
+    least from which on all meet the tolerance with a margin.
     """
     probe, hits = view.scene.probe, view.hits
     assert probe is not None  # there is no decision to take
     if not len(hits.ray):
         return LEAST, 0.0
-    some = hits.take(np.linspace(0, len(hits.ray) - 1, POINTS).astype(int))
+    some = hits.take(np.random.default_rng(0).integers(len(hits.ray), size=POINTS))
     points = [np.asarray(a, np.float32) for a in (some.normal, -some.direction)]
     light, direction = texels(probe, TEXELS)
     every = Rule(direction.reshape(-1, 3), light.reshape(-1, light.shape[-1]))
@@ -86,7 +87,7 @@ def count(view: View) -> tuple[int, float]:
             found = np.asarray(_radiance(brdf, *points, *rule))
             errors[n] = max(errors[n], relative(found - truth, truth))
     worst_from_here = np.maximum.accumulate(errors[::-1])[::-1]
-    good = np.flatnonzero(worst_from_here <= view.tolerance)
+    good = np.flatnonzero(MARGIN * worst_from_here <= view.tolerance)
     chosen = good[0] if len(good) else len(numbers) - 1
     return int(numbers[chosen]), float(worst_from_here[chosen])
 

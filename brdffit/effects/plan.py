@@ -22,7 +22,7 @@ from brdffit.effects import (
     style,
     tangents,
 )
-from brdffit.effects.decision import Decision, View
+from brdffit.effects.decision import Decision, View, not_called_for
 from brdffit.effects.quadrature import Rule
 from brdffit.effects.worst import RANGES
 from brdffit.models.base import AbstractBRDF
@@ -46,6 +46,7 @@ OF_SCENE = {
 OF_MODEL = {part.NAME: part for part in (multiple_scattering, exact_fresnel)}
 EFFECTS = OF_SCENE | OF_MODEL
 TOLERANCE = 1e-3
+DRAWN = (bump.NAME, cut_out.NAME, style.NAME)  # what pictures in a style have
 
 
 @dataclasses.dataclass(frozen=True)
@@ -162,7 +163,13 @@ def _plan(scene, brdf, chosen, tolerance, with_, without, within, channels) -> P
     look_up(dict.fromkeys(RANGES), within, "`within`")
     wanted = channels or (None if brdf is None else brdf.channels)
     view = View(scene, brdf, tolerance, scene.channels_for(wanted), within)
-    decisions = {name: EFFECTS[name].decide(view) for name in chosen}
+    drawn = scene.style is not None and style.NAME not in without
+    decisions = {
+        name: not_called_for(name, "the style does without it")
+        if drawn and name not in DRAWN
+        else EFFECTS[name].decide(view)
+        for name in chosen
+    }
     for name, on in [*((n, True) for n in with_), *((n, False) for n in without)]:
         decisions[name] = dataclasses.replace(decisions[name], on=on)
     _check(scene, decisions)

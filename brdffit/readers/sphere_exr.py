@@ -59,7 +59,10 @@ def load(path: Path | str) -> Samples:
         raise ValueError(f"Image `{path}` does not fit its scene: {error}") from error
     assert samples.pixels is not None  # for the type checker
     value = pixels[samples.pixels.row, samples.pixels.column]
-    mask = np.isfinite(value) & (samples.weight > 0).any(axis=1)
+    lit = (samples.weight > 0).any(axis=1)
+    if samples.ambient is not None:
+        lit |= samples.ambient > 0
+    mask = np.isfinite(value) & lit
     mask &= validity.above_horizon(samples.wo)[:, None]
     validity.refuse_unusable(path, mask)
     return dataclasses.replace(

@@ -86,7 +86,7 @@ def trace_paths(
     origin, direction = (array[rows] for array in scene.camera.rays())
     pixel = np.arange(scene.camera.shape[0] * scene.camera.shape[1])[rows]
     hits = meet(origin, direction)
-    missed = np.setdiff1d(np.arange(len(pixel)), hits.ray)
+    missed = hits.missed(len(pixel))
     hits = hits._replace(ray=pixel[hits.ray])
     sky, away, way_to_sky, way = pixel[missed], direction[missed], None, None
     smooth = bounces.smooth_shapes(scene.shapes)
@@ -105,18 +105,17 @@ def trace_paths(
         here = np.flatnonzero(np.isin(hits.shape, shapes))
         if key in smooth or not len(here):
             continue
-        for some in _portions(here, portion):
+        for some, count in _portions(here, portion):
             points = hits.take(some)
             samples = lit(scene, geometry, points, plan, channels)
             on_way = None if way is None else way.take(some)
-            count = len(np.unique(some))
             parts.append(Part(points.ray[:count], samples, None, on_way, key))
     if plan.on("environment") and len(sky):
         assert scene.probe is not None  # or the effect is off
         radiance = scene.exposure * scene.probe.radiance(away)
         radiance = np.broadcast_to(radiance, (len(sky), channels)).astype(np.float32)
         parts.append(Part(sky, None, radiance, way_to_sky, GIVEN))
-    return Traced(tuple(parts), len(scene.camera.rays()[0]), channels)
+    return Traced(tuple(parts), scene.camera.shape[0] * scene.camera.shape[1], channels)
 
 
 def _by_material(scene: Scene) -> dict[int, list[int]]:
@@ -127,17 +126,19 @@ def _by_material(scene: Scene) -> dict[int, list[int]]:
     return found
 
 
-def _portions(rows: np.ndarray, portion: int | None) -> Iterator[np.ndarray]:
-    """Rows in portions, each as long as the most or as a smaller power of two."""
+def _portions(
+    rows: np.ndarray, portion: int | None
+) -> Iterator[tuple[np.ndarray, int]]:
+    """Rows in portions of the most or of a smaller power of two, and how many count."""
     if portion is None:
-        yield rows
+        yield rows, len(rows)
         return
     for start in range(0, len(rows), portion):
         some = rows[start : start + portion]
         room = LEAST
         while room < len(some):
             room *= 2
-        yield np.pad(some, (0, room - len(some)), mode="edge")
+        yield np.pad(some, (0, room - len(some)), mode="edge"), len(some)
 
 
 def part_values(materials: Materials, part: Part) -> Values:

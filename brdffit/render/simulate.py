@@ -43,6 +43,8 @@ def simulate_image(
     samples = trace(scene, plan, brdf.channels)
     value, sigma = noise(compiled_shade(brdf, samples))
     lit = np.asarray(samples.weight).any(axis=1)
+    if samples.ambient is not None:
+        lit |= np.asarray(samples.ambient) > 0
     return dataclasses.replace(
         samples,
         value=value,

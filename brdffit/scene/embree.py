@@ -11,7 +11,7 @@ from jaxtyping import Float
 from brdffit.scene import intersection
 from brdffit.scene.nearest import Meeting
 
-MANY = 4096  # triangles beyond which a mesh is given to Embree
+MANY = 2048  # triangles beyond which a mesh is given to Embree
 START = 1e-5  # how far from its origin a ray begins, relative to the size of the mesh
 
 

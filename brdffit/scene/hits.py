@@ -50,6 +50,12 @@ class Hits(NamedTuple):
         """The hits with these indices, or where a Boolean array is True."""
         return Hits(*(array[rows] for array in self))
 
+    def missed(self, count: int) -> np.ndarray:
+        """Indices of the rays, of so many in the batch, that meet nothing."""
+        met = np.zeros(count, bool)
+        met[self.ray] = True
+        return np.flatnonzero(~met)
+
 
 class Geometry:
     """Shapes as arrays, sorted by kind: spheres, planes, triangles, large meshes.

@@ -89,7 +89,7 @@ def test_bounces_are_differentiable_in_every_material():
 
     slopes = eqx.filter_jit(eqx.filter_grad(brightness))(materials)
     for pick, step in (
-        (lambda m: m[0].eta, 2e-3),
+        (lambda m: m[0].eta, 1e-3),
         (lambda m: m[1].k, 1e-2),
         (lambda m: m[2].alpha, 1e-2),
         (lambda m: m[2].f0, 1e-2),

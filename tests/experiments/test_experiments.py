@@ -11,9 +11,13 @@ import pytest
 
 from experiments import (
     anisotropy,
+    classic_scenes,
     metal_highlight,
     million_pairs,
     original_phong,
+    probe_directions,
+    shadow_maps,
+    six_materials,
     stability,
     textbook,
 )
@@ -142,3 +146,46 @@ def test_fields_of_tangents_turn_the_highlight(tmp_path):
         assert float(row["angle_deg"]) == pytest.approx(90 if straight else 53, abs=7)
     run = tomllib.loads((tmp_path / "run.toml").read_text())
     assert run["isotropic_difference"] < 1e-5
+
+
+def test_six_materials_are_shown_with_their_effects(tmp_path, monkeypatch):
+    monkeypatch.setattr(six_materials, "RUNS", 1)
+    six_materials.main(tmp_path, resolution=24)
+    check_record(tmp_path)
+    for row in table(tmp_path):
+        assert row["effects"].startswith("ambient falloff shadows")
+        assert float(row["milliseconds"]) > 0
+    assert len(table(tmp_path)) == 6
+
+
+def test_shadow_maps_come_closer_with_every_pixel(tmp_path, monkeypatch):
+    monkeypatch.setattr(shadow_maps, "RUNS", 1)
+    monkeypatch.setattr(shadow_maps, "MAPS", (16, 32, 256))
+    shadow_maps.main(tmp_path, resolution=48)
+    check_record(tmp_path)
+    for light in shadow_maps.LIGHTS:
+        errors = [float(r["error"]) for r in table(tmp_path) if r["light"] == light]
+        assert errors[0] == 0
+        assert errors[1] > 1.5 * errors[3]
+
+
+def test_directions_that_a_plan_picks_meet_its_tolerance(tmp_path, monkeypatch):
+    monkeypatch.setattr(probe_directions, "RUNS", 1)
+    monkeypatch.setattr(probe_directions, "ALPHAS", (0.2,))
+    monkeypatch.setattr(probe_directions, "SKY", (32, 64))
+    monkeypatch.setattr(probe_directions, "TOLERANCES", (0.1, 0.02))
+    probe_directions.main(tmp_path, resolution=8, numbers=(16, 128))
+    check_record(tmp_path)
+    for row in table(tmp_path, "picked"):
+        assert row["said_to_be_met"] == "True"
+        assert float(row["error"]) <= float(row["tolerance"])
+
+
+def test_classic_scenes_are_drawn(tmp_path):
+    classic_scenes.main(tmp_path, resolution=12)
+    check_record(tmp_path, "probe", "cornell", "local", "bumps", "gooch")
+    effects = {row["picture"]: row["effects"].split() for row in table(tmp_path)}
+    assert effects["Cornell box: no shadows"] == ["falloff"]
+    assert "bounces" in effects["table top: traced"]
+    assert effects["bumps of 0"] == []
+    assert effects["Gooch: outlines"] == ["style"]

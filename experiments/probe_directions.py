@@ -1,0 +1,150 @@
+"""How many directions does a light probe take, for which roughness and how long?
+
+A sphere under a sky with a small sun, by growing numbers of directions, against every
+pixel of the sky. The directions that a plan picks for a tolerance are marked, so that
+it can be seen whether they meet it.
+"""
+
+import dataclasses
+import time
+
+import numpy as np
+
+from brdffit import plan
+from brdffit.effects.quadrature import Regions, Rule, texels
+from brdffit.models import GGX, Lambert
+from brdffit.plots.style import COLOURS, DASHES, new_figure
+from brdffit.render import trace
+from brdffit.render.shading import compiled_shade
+from brdffit.scene import Environment, Orthographic, Scene, Sphere
+from experiments.record import RESULTS, Record, styled
+
+RESOLUTION = 14
+SKY = (128, 256)
+NUMBERS = tuple(2**n for n in range(4, 13))
+TOLERANCES = (1e-1, 1e-2, 1e-3)
+ALPHAS = (0.05, 0.1, 0.2, 0.5)
+RUNS = 7
+
+
+def sky(rows, columns):
+    """Blue above, brown below, with a sun of six degrees and a soft cloud."""
+    v, u = (np.mgrid[0:rows, 0:columns] + 0.5) / [[[rows]], [[columns]]]
+    x = np.sin(np.pi * v) * np.sin(2 * np.pi * u)
+    y, z = np.cos(np.pi * v), -np.sin(np.pi * v) * np.cos(2 * np.pi * u)
+    sun = 400 * np.exp(800 * (-0.48 * x + 0.6 * y + 0.64 * z - 1))
+    cloud = 2 * np.exp(12 * (0.8 * x + 0.48 * y + 0.36 * z - 1))
+    above = 1 / (1 + np.exp(-12 * y))
+    ground = above[..., None] * [0.25, 0.4, 0.7] + (1 - above)[..., None] * [
+        0.2,
+        0.15,
+        0.1,
+    ]
+    return ground + sun[..., None] * [1.0, 0.9, 0.7] + cloud[..., None]
+
+
+def materials():
+    """Matt, and ever smoother."""
+    rough = {
+        f"ggx, alpha {a:g}": GGX(diffuse=0.2, f0=[0.3] * 3, alpha=a) for a in ALPHAS
+    }
+    return {"lambert": Lambert(albedo=[0.5] * 3)} | rough
+
+
+def shaded(brdf, scene, made, rule):
+    """Values of the sphere, and the least milliseconds of tracing and shading."""
+    made, taken = dataclasses.replace(made, sky=rule), []
+    for run in range(RUNS + 1):  # the first one compiles
+        begin = time.perf_counter()
+        value = np.asarray(compiled_shade(brdf, trace(scene, made)))
+        if run:
+            taken.append(1000 * (time.perf_counter() - begin))
+    return value, min(taken)
+
+
+def measured(resolution, numbers):
+    """Rows of the two tables."""
+    probe = Environment(sky(*SKY))
+    scene = Scene(Orthographic(resolution), (Sphere(),), (probe,))
+    light, direction = texels(probe)
+    every = Rule(direction.reshape(-1, 3), light.reshape(-1, 3))
+    regions, rows, picked = Regions(probe), [], []
+    for name, brdf in materials().items():
+        made = plan(scene, brdf, tolerance=1.0)
+        whole = dataclasses.replace(made, sky=every)
+        truth = np.asarray(compiled_shade(brdf, trace(scene, whole)))
+
+        def error(value, truth=truth):
+            return float(np.sqrt(np.mean((value - truth) ** 2) / np.mean(truth**2)))
+
+        found = {}
+        for number in numbers:
+            value, taken = shaded(brdf, scene, made, regions.rule(number))
+            found[number] = error(value)
+            rows.append(
+                {
+                    "model": name,
+                    "directions": number,
+                    "error": found[number],
+                    "milliseconds": taken,
+                }
+            )
+        for tolerance in TOLERANCES:
+            chosen = plan(scene, brdf, tolerance=tolerance)
+            value = np.asarray(compiled_shade(brdf, trace(scene, chosen)))
+            told = "or above it" in chosen.decisions["environment"].why
+            picked.append(
+                {
+                    "model": name,
+                    "tolerance": tolerance,
+                    "directions": chosen.directions,
+                    "error": error(value),
+                    "said_to_be_met": not told,
+                }
+            )
+    return rows, picked
+
+
+@styled
+def chart(rows, picked):
+    """Error against directions and against time."""
+    figure = new_figure(7.6, 3.9)
+    left, right = figure.subplots(1, 2, sharey=True)
+    names = list(dict.fromkeys(row["model"] for row in rows))
+    for n, name in enumerate(names):
+        own = [row for row in rows if row["model"] == name]
+        look = {"color": COLOURS[n], "linestyle": DASHES[n]}
+        error = [row["error"] for row in own]
+        left.plot([row["directions"] for row in own], error, label=name, **look)
+        right.plot([row["milliseconds"] for row in own], error, **look)
+        chosen = [row for row in picked if row["model"] == name]
+        left.plot(
+            [row["directions"] for row in chosen],
+            [row["error"] for row in chosen],
+            "o",
+            color=COLOURS[n],
+        )
+    for tolerance in TOLERANCES:
+        left.axhline(tolerance, color="#6b6b6b", linewidth=0.7)
+    left.set(xscale="log", yscale="log", xlabel="directions (dots: picked by a plan)")
+    left.set_ylabel("error of the image (relative RMS)")
+    right.set(xscale="log", xlabel="least time to trace and shade (ms)")
+    figure.legend(
+        *left.get_legend_handles_labels(), loc="outside lower center", ncols=5
+    )
+    figure.suptitle("A light probe by a number of directions, per roughness")
+    return figure
+
+
+def main(folder=RESULTS / "probe_directions", resolution=RESOLUTION, numbers=NUMBERS):
+    """Write tables and figure."""
+    record = Record(folder)
+    rows, picked = measured(resolution, numbers)
+    record.table(rows)
+    record.table(picked, "picked")
+    record.figure(chart(rows, picked))
+    record.close(resolution=resolution, sky=list(SKY), runs=RUNS)
+
+
+if __name__ == "__main__":
+    main()
