@@ -110,15 +110,19 @@ def test_what_the_plan_leaves_out_is_not_missed():
 
 
 def test_parameters_are_recovered_through_a_light_probe():
-    """Seen under all of the probe, fitted with the directions that the plan allows."""
+    """Fitted with the directions of a plan, fewer than the image was seen by.
+
+    The tolerance is below the noise of a pixel; one of 0.01, as large as the noise, is
+    met by 64 directions and leaves errors of the parameters of a third.
+    """
     phi, y = 2 * np.pi * U, np.cos(np.pi * V)
     z = -np.sin(np.pi * V) * np.cos(phi)
     sun = 40 * np.exp(60 * (0.6 * y + 0.8 * z - 1))
     sky = (1 + y)[..., None] * [0.2, 0.3, 0.5] + sun[..., None] * [1.0, 0.9, 0.7]
     scene = Scene(Orthographic(20), (Sphere(),), (Environment(sky),))
-    exact = plan(scene, TRUTH, tolerance=1e-3)
+    exact = plan(scene, TRUTH, tolerance=3e-4)
     image = simulate_image(TRUTH, scene, NOISE, plan=exact)
-    few = plan(scene, TRUTH, tolerance=1e-2)
+    few = plan(scene, TRUTH, tolerance=3e-3)
     assert few.directions < exact.directions
     seen = dataclasses.replace(
         trace(scene, few), value=image.value, sigma=image.sigma, mask=image.mask
@@ -130,7 +134,7 @@ def test_parameters_are_recovered_through_a_light_probe():
 
 
 def test_pixels_that_show_other_materials_are_left_out():
-    scene = SCENES["a shadow that crosses the sphere"]
-    samples = trace(scene)
-    lone = trace(SCENES["three directional lights"])
-    assert 0 < len(samples) < len(lone)
+    ball, other = Sphere([-0.5, 0, 0], 0.5), Sphere([0.5, 0, 0], 0.5, material=GREY)
+    samples = trace(Scene(CAMERA, (ball, other), (SUN,)))
+    assert len(samples) == len(trace(Scene(CAMERA, (ball,), (SUN,))))
+    assert (samples.pixels.column < 20).all()
