@@ -12,6 +12,7 @@
     anisotropy         which way does a field of tangents stretch a highlight?
     merl_ranking       which models fit stand-ins for MERL materials best, and how fast?
     curet_matte        how much does a rough model gain over Lambert's on matte samples?
+    ptfe               which model describes a white standard better than Lambert's?
     ball_gloss         how many lobes does the gloss of a photographed ball take?
 
 Beside the experiments stand what some of them share: `record` writes results,

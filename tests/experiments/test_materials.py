@@ -4,9 +4,11 @@ import csv
 import tomllib
 
 import jax
+import numpy as np
 import pytest
 
-from experiments import ball_gloss, curet_matte, merl_ranking, merl_standins
+from brdffit.samples import Measurement
+from experiments import ball_gloss, curet_matte, merl_ranking, merl_standins, ptfe
 from tests.data import shared_data
 
 
@@ -50,6 +52,27 @@ def test_oren_nayar_gains_on_a_matte_sample(tmp_path):
     curet_matte.main(tmp_path, samples=(10,), models=("lambert", "oren_nayar"))
     (row,) = table(tmp_path)
     assert float(row["oren_nayar_gain"]) > 2.5
+
+
+def test_oren_nayar_cannot_describe_ptfe(tmp_path):
+    shared_data("nist_ptfe")
+    ptfe.main(tmp_path, models=("lambert", "oren_nayar"), starts=2)
+    for row in table(tmp_path):
+        assert float(row["relative_rms_percent"]) == pytest.approx(7.88, abs=0.05)
+        assert float(row["forward_over_back"]) == pytest.approx(1, abs=1e-3)
+    run = tomllib.loads((tmp_path / "run.toml").read_text())
+    assert run["forward_over_back_measured"] > 1.05
+
+
+def test_ratio_of_forward_to_back_is_that_of_the_data():
+    def tilted(degrees):
+        angle = np.radians(degrees)
+        return [np.sin(angle), 0, np.cos(angle)]
+
+    wi, wo = np.array([tilted(-60)] * 2), np.array([tilted(54), tilted(-52)])
+    mask = np.ones((2, 1), bool)
+    data = Measurement(wi, wo, np.array([[0.3], [0.2]]), mask=mask)
+    assert ptfe.forward_over_back(ptfe.measured(data)) == pytest.approx(1.5)
 
 
 def test_a_ball_without_gloss_misses_the_highlight(tmp_path):

@@ -12,11 +12,11 @@ import brdffit
 from brdffit import MODELS, images
 from brdffit.microfacet import fresnel
 from brdffit.render.shading import compiled_shade
-from brdffit.scene import Directional, Orthographic, Scene, Sphere, save_scene
+from brdffit.scene import save_scene
 
 mitsuba = pytest.importorskip("mitsuba")
 
-RAYS = 9  # to a pixel
+FINER = 5  # pixels to a side of one, of which the middle one is kept
 LOWEST = 0.25  # cosine of the steepest view that is kept; a pixel is wide there
 LIGHTS = [(0.0, 0.28, 0.96), (0.6, -0.3, 0.742), (-0.85, 0.2, 0.487)]
 
@@ -31,8 +31,8 @@ def photograph(xml, light, resolution):
     up = mitsuba.ScalarTransform4f
     film = {
         "type": "hdrfilm",
-        "width": resolution,
-        "height": resolution,
+        "width": FINER * resolution,
+        "height": FINER * resolution,
         "rfilter": {"type": "box"},
         "pixel_format": "rgb",
     }
@@ -44,17 +44,18 @@ def photograph(xml, light, resolution):
                 "type": "orthographic",
                 "to_world": up().look_at([0, 0, 3], [0, 0, 0], [0, 1, 0]),
                 "film": film,
-                "sampler": {"type": "multijitter", "sample_count": RAYS},
+                "sampler": {"type": "independent", "sample_count": 1},
             },
             "sphere": {"type": "sphere", "bsdf": bsdf},
             "light": {
                 "type": "directional",
                 "direction": [x, y, z],
-                "irradiance": {"type": "rgb", "value": light.irradiance.tolist()},
+                "irradiance": {"type": "rgb", "value": [float(light.irradiance)] * 3},
             },
         }
     )
-    return np.array(mitsuba.render(scene, seed=1))
+    image = np.array(mitsuba.render(scene, seed=1))
+    return image[FINER // 2 :: FINER, FINER // 2 :: FINER]
 
 
 @pytest.fixture
@@ -68,16 +69,15 @@ def there_and_back(tmp_path):
         centre = (2 * np.arange(resolution) + 1) / resolution - 1
         steep = 1 - centre**2 - centre[:, None] ** 2 < LOWEST**2
         for number, direction in enumerate(LIGHTS):
-            length = np.linalg.norm(direction)
-            light = Directional(np.array(direction) / length, [np.pi] * 3)
-            pixels = photograph(tmp_path / "material.xml", light, resolution).astype(
-                np.float32
-            )
+            towards = np.array(direction) / np.linalg.norm(direction)
+            scene = brdffit.lit_sphere(resolution, [towards])
+            (light,) = scene.lights
+            pixels = photograph(tmp_path / "material.xml", light, resolution)
+            pixels = pixels.astype(np.float32)
             lit = pixels.max(axis=-1) > 0
             pixels[steep | ~lit] = np.nan
             path = folder / f"{number}.exr"
             images.write(path, pixels)
-            scene = Scene(Orthographic(resolution), Sphere(), (light,))
             save_scene(scene, path.with_suffix(".toml"))
         return brdffit.load(folder)
 
@@ -110,17 +110,17 @@ def test_a_conductor_comes_back(there_and_back):
         np.asarray(reflectance(cosines, b.eta, b.k)) for b in (truth, fitted.brdf)
     )
     assert np.allclose(back, there, rtol=0.01)
-    assert apart(shown(fitted.brdf, data), data.value[data.mask]) < 0.005
+    assert apart(shown(fitted.brdf, data), shown(truth, data)) < 0.005
 
 
 def test_a_plastic_comes_back(there_and_back):
     truth = MODELS["plastic_ggx"](
-        diffuse=[0.5, 0.35, 0.2], alpha=0.1, eta=1.5, separable=True
+        diffuse=[0.5, 0.35, 0.2], alpha=0.05, eta=1.5, separable=True
     )
-    data = there_and_back(truth, 128)
+    data = there_and_back(truth, 80)
     fitted = brdffit.fit(dataclasses.replace(truth, alpha=0.2), data, starts=2)
     assert fitted.parameters["diffuse"] == pytest.approx([0.5, 0.35, 0.2], rel=0.01)
-    assert fitted.parameters["alpha"] == pytest.approx(0.1, rel=0.01)
+    assert fitted.parameters["alpha"] == pytest.approx(0.05, rel=0.01)
     assert fitted.parameters["eta"] == pytest.approx(1.5, rel=0.01)
 
 
