@@ -144,7 +144,8 @@ def orders(rows):
 def chart(rows):
     """Error of every model on every material, over that of the best."""
     figure = new_figure(9.0, 4.2)
-    for axes, residual in zip(figure.subplots(1, 2), RESIDUALS, strict=True):
+    panels = figure.subplots(1, len(RESIDUALS), squeeze=False)[0]
+    for axes, residual in zip(panels, RESIDUALS, strict=True):
         mine = [row for row in rows if row["residual"] == residual]
         order = [r["model"] for r in ranking(rows) if r["residual"] == residual]
         for place, model in enumerate(order):
