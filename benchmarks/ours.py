@@ -23,13 +23,13 @@ def solve_alone(problem: Problem, precision: str) -> Contestant:
         laid_out = blocks(samples, use, problem.residual, np.dtype(precision))
         bounded = bounded_problem(problem.layout, problem.start, problem.residual, {})
         ready = jax.tree.map(jnp.asarray, bounded(blocks=laid_out))
-        starts = jnp.asarray(problem.x0)[None]
+        starts = np.asarray(problem.x0)[None]
 
     def run(tolerance):
         del tolerance
         with jax.enable_x64(True):
-            met = solve(ready, starts, rtol=RTOL[precision], max_steps=MAX_STEPS)
-        return np.asarray(met.x)[0], int(met.steps[0])
+            met = solve(ready, starts, 1, rtol=RTOL[precision], max_steps=MAX_STEPS)
+        return met.x[0], int(met.steps[0])
 
     return Contestant(f"brdffit {precision}", run, tolerances=OWN)
 

@@ -3,9 +3,9 @@
 Truths are drawn from the typical ranges of all parameters and measured, without noise,
 on a goniometer grid that has directions in and around even a narrow lobe. A truth is
 recovered when the fit explains all but 1e-8 of the variation of the logarithm of the
-data, and every parameter that the data determine is right to 1e-4. Of a product that cannot
-be told apart only the product is determined, and the fit says so: its factors have an
-infinite error, and whatever drifts with them a large one.
+data, and every parameter that the data determine is right to 1e-4. Of a product that
+cannot be told apart only the product is determined, and the fit says so: its factors
+have an infinite error, and whatever drifts with them a large one.
 
     python -m experiments.recovery [MODEL ...]
 """

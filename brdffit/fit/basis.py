@@ -23,6 +23,7 @@ from brdffit.fit.residual import Residual
 from brdffit.fit.transforms import Layout, to_natural
 from brdffit.models import AbstractBRDF
 from brdffit.parameters import replace, values
+from brdffit.types import AnyArray
 
 FEW_LIGHTS = 16  # so many are added one by one, ten times faster than by a reduction
 
@@ -44,11 +45,11 @@ class Problem(eqx.Module):
 
     channels: AbstractBRDF
     blocks: Blocks
-    lower: Float[Array, " n"]
-    upper: Float[Array, " n"]
-    prior_mean: Float[Array, " n"]
-    prior_weight: Float[Array, " n"]
-    spread: Float[Array, ""]
+    lower: Float[AnyArray, " n"]
+    upper: Float[AnyArray, " n"]
+    prior_mean: Float[AnyArray, " n"]
+    prior_weight: Float[AnyArray, " n"]
+    spread: Float[AnyArray, ""]
     layout: Layout = eqx.field(static=True)
     residual: Residual = eqx.field(static=True)
     loss: Loss | None = eqx.field(static=True, default=None)

@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
 
-import jax.numpy as jnp
 import numpy as np
 
 from brdffit.fit.basis import Problem
@@ -82,11 +81,11 @@ def bounded_problem(
     return partial(
         Problem,
         channels=channel_models(brdf),
-        lower=jnp.asarray(lower),
-        upper=jnp.asarray(upper),
-        prior_mean=jnp.zeros(len(lower)),
-        prior_weight=jnp.zeros(len(lower)),
-        spread=jnp.ones(()),
+        lower=lower,
+        upper=upper,
+        prior_mean=np.zeros(len(lower)),
+        prior_weight=np.zeros(len(lower)),
+        spread=np.ones(()),
         layout=layout,
         residual=residual,
     )

@@ -8,7 +8,6 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
-import optimistix as optx
 
 from brdffit.compiled import compiled
 from brdffit.fit import structure
@@ -17,7 +16,7 @@ from brdffit.fit.costs import costs
 from brdffit.fit.residual import RESIDUALS
 from brdffit.fit.robust import inflation
 from brdffit.fit.search import Search
-from brdffit.fit.solve import sentence
+from brdffit.fit.solve import CONVERGED, sentence
 from brdffit.fit.transforms import Layout, to_natural
 from brdffit.fit.uncertainty import uncertainty
 
@@ -105,7 +104,7 @@ def examine(
         + 2 * unknowns
         + 2 * unknowns * (unknowns + 1) / max(count - unknowns - 1, 1),
         "bic": deviance + unknowns * math.log(count),
-        "converged": bool(found.status == optx.RESULTS.successful),
+        "converged": found.status == CONVERGED,
         "held": tuple(layout.labels[place] for place in sorted(held)),
         "explained": explained,
         "status": _sentence(found, explained),
@@ -137,7 +136,7 @@ def _settled(problem: Problem, x: np.ndarray):
 
 def _look(problem: Problem, x: np.ndarray):
     """What `_at` says of a point, as arrays that can be changed."""
-    return jax.tree.map(np.array, _at(problem, jnp.asarray(x)))
+    return jax.tree.map(np.array, _at(problem, x))
 
 
 def _error_of_a_square(problem, x, place, equations, variance) -> float:
@@ -150,7 +149,7 @@ def _error_of_a_square(problem, x, place, equations, variance) -> float:
     step = NEARBY * float(upper - lower)
     away = x.copy()
     away[place] += step if x[place] <= lower else -step
-    rise = float(_at(problem, jnp.asarray(away))[0].cost - equations.cost)
+    rise = float(_at(problem, away)[0].cost - equations.cost)
     if rise <= equations.rounding:
         return -1.0
     return step * (variance / 2 / rise) ** 0.25

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Mapping, Sequence
 from functools import partial
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -127,9 +128,9 @@ def fit(
             spread = _spread(found, layout, brdf, samples, use, residual, loss)
             asked = {
                 "loss": loss,
-                "spread": jnp.asarray(spread),
-                "prior_mean": jnp.asarray(prior[0]),
-                "prior_weight": jnp.asarray(prior[1] * spread**2),
+                "spread": np.asarray(spread),
+                "prior_mean": prior[0],
+                "prior_weight": prior[1] * spread**2,
             }
             problem = partial(problem, **asked)
             exact = problem(blocks=exact.blocks)
@@ -223,11 +224,12 @@ def _spread(
 
 
 def _fitted(
-    layout: Layout, brdf: AbstractBRDF, natural: Mapping[str, np.ndarray]
+    layout: Layout, brdf: AbstractBRDF, natural: Mapping[str, Any]
 ) -> AbstractBRDF:
     """The model with the fitted values, in the precision JAX is set to."""
     flat = np.concatenate([np.atleast_1d(v) for v in natural.values()])
-    return unpack(layout, brdf, jnp.asarray(flat, float))
+    held = unpack(layout, brdf, flat)
+    return jax.tree.map(lambda leaf: jnp.asarray(leaf, float), held)
 
 
 def _path(

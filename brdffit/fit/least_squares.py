@@ -12,7 +12,12 @@ from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, PyTree
 
 from brdffit.compiled import compiled
-from brdffit.fit.solve import BoundedLevenbergMarquardt, sentence
+from brdffit.fit.solve import (
+    CONVERGED,
+    BoundedLevenbergMarquardt,
+    outcome_of,
+    sentence,
+)
 from brdffit.fit.structure import NormalEquations
 from brdffit.fit.uncertainty import uncertainty
 
@@ -125,6 +130,7 @@ def least_squares(
                 throw=False,
             )
         )(flat)
+        outcome = int(outcome_of(solution.result))
         x = _polished(weighted, np.asarray(solution.value), lower, upper)
         left = np.asarray(residual(restore(jnp.asarray(x))))
         at = compiled(equations)(jnp.asarray(x), None)
@@ -158,8 +164,8 @@ def least_squares(
             undetermined=errors.undetermined,
             cost=cost,
             residual=left,
-            converged=bool(solution.result == optx.RESULTS.successful),
-            status=f"{sentence(solution.result, int(solution.stats['num_steps']))}.",
+            converged=outcome == CONVERGED,
+            status=f"{sentence(outcome, int(solution.stats['num_steps']))}.",
             steps=int(solution.stats["num_steps"]),
         )
 

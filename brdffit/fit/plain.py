@@ -17,6 +17,7 @@ from brdffit.compiled import compiled
 from brdffit.fit.basis import Problem
 from brdffit.fit.residual import Residual
 from brdffit.fit.search import Minima, Search, outcome
+from brdffit.fit.solve import outcome_of
 from brdffit.fit.transforms import Layout, to_natural, unpack
 from brdffit.models import AbstractBRDF
 from brdffit.render.shading import shade
@@ -98,8 +99,9 @@ def search_plainly(
             cost=cost,
             rounding=8 * jnp.finfo(cost.dtype).eps * cost,
             steps=found.stats["num_steps"],
-            status=found.result,
+            status=outcome_of(found.result),
         )
 
     met = compiled(lambda u: jax.lax.map(from_start, u))(np.log(share / (1 - share)))
+    met = jax.tree.map(np.asarray, met)
     return outcome(met, met)

@@ -1,5 +1,6 @@
 """From many starts to the best minimum: sort out on few samples, finish on all."""
 
+import dataclasses
 from functools import partial
 
 import equinox as eqx
@@ -7,18 +8,18 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import optimistix as optx
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Bool, Float, Int
 
 from brdffit.compiled import compiled
 from brdffit.fit import structure
 from brdffit.fit.basis import Problem
-from brdffit.fit.blocks import blocks
-from brdffit.fit.solve import BoundedLevenbergMarquardt
+from brdffit.fit.blocks import AHEAD, blocks
+from brdffit.fit.solve import CONVERGED, BoundedLevenbergMarquardt, outcome_of
 from brdffit.fit.start import typical_box
 from brdffit.samples import Samples
+from brdffit.types import AnyArray
 
 RTOL = {"float64": 1e-10, "float32": 1e-9}
-SCREEN = 4096  # samples on which many starts are sorted out
 FINALISTS = 3  # minima that are finished on all samples
 SAME_BASIN = 1e-3  # relative difference in cost below which two minima are one
 
@@ -31,14 +32,14 @@ class Minima(eqx.Module):
         cost: Half the weighted sum of squares.
         rounding: Error of the cost.
         steps: Solver steps taken.
-        status: Outcome of each solve.
+        status: Outcome of each solve, a place in `STATUS`.
     """
 
-    x: Float[Array, "*start n"]
-    cost: Float[Array, "*start"]
-    rounding: Float[Array, "*start"]
-    steps: Int[Array, "*start"]
-    status: optx.RESULTS
+    x: Float[AnyArray, "*start n"]
+    cost: Float[AnyArray, "*start"]
+    rounding: Float[AnyArray, "*start"]
+    steps: Int[AnyArray, "*start"]
+    status: Int[AnyArray, "*start"]
 
 
 class Search(eqx.Module):
@@ -48,7 +49,7 @@ class Search(eqx.Module):
         x: The best point found.
         cost: What is minimised, there.
         steps: Steps of the solve that found it.
-        status: Its outcome.
+        status: Its outcome, a place in `STATUS`.
         basins: Number of distinct minima met.
         agreement: Share of starts that ended in the best one.
     """
@@ -56,7 +57,7 @@ class Search(eqx.Module):
     x: np.ndarray
     cost: float
     steps: int
-    status: optx.RESULTS
+    status: int
     basins: int
     agreement: float
 
@@ -72,8 +73,8 @@ def search(
 ) -> Search:
     """Solve from all starts and return the best minimum.
 
-    With many samples all starts run on a share of them, which tells their basins apart,
-    and only the best few are finished on all.
+    With many samples all starts run on the first blocks, which stand for all and tell
+    the basins apart, and only the best few are finished on all.
 
     Args:
         problem: Everything but the samples; called with ``blocks``.
@@ -84,21 +85,23 @@ def search(
         precision: Precision in which models are evaluated.
         max_steps: Steps after which a start gives up.
     """
-    dtype, rtol = np.dtype(precision), RTOL[precision]
-    residual = problem.keywords["residual"]
-    rows = np.flatnonzero(use.any(axis=1))
-    met = None
-    if len(rows) > SCREEN and len(starts) > 1:
-        few = _screen(samples, rows)
-        sample = problem(blocks=blocks(samples.take(few), use[few], residual, dtype))
-        met = solve(sample, jnp.asarray(starts), rtol=rtol, max_steps=max_steps)
-        # always as many, so that one program serves: the best stands in for absent ones
-        finalists = np.resize(_distinct(met)[:FINALISTS], FINALISTS)
-        starts = np.asarray(met.x)[finalists]
+    rtol = RTOL[precision]
     whole = exact
-    if dtype != exact.blocks.wi.dtype:
-        whole = problem(blocks=blocks(samples, use, residual, dtype))
-    final = solve(whole, jnp.asarray(starts), rtol=rtol, max_steps=max_steps)
+    if np.dtype(precision) != exact.blocks.wi.dtype:
+        residual = problem.keywords["residual"]
+        whole = problem(blocks=blocks(samples, use, residual, np.dtype(precision)))
+    room = np.zeros((max(len(starts), FINALISTS), starts.shape[1]))
+    room[: len(starts)] = starts
+    count = len(starts)
+    met = None
+    if whole.blocks.count > AHEAD and count > 1:
+        few = dataclasses.replace(whole.blocks, count=np.asarray(AHEAD, np.int32))
+        sample = dataclasses.replace(whole, blocks=few)
+        met = solve(sample, room, count, rtol=rtol, max_steps=max_steps)
+        finalists = _distinct(met)[:FINALISTS]
+        count = len(finalists)
+        room[:count] = met.x[finalists]
+    final = solve(whole, room, count, rtol=rtol, max_steps=max_steps)
     return outcome(final if met is None else met, final)
 
 
@@ -109,54 +112,44 @@ def outcome(met: Minima, final: Minima) -> Search:
         met: Where the starts ended.
         final: Where the best of them were finished.
     """
-    near = np.asarray(met.cost) <= np.nanmin(met.cost) + _same(met)
+    near = met.cost <= np.nanmin(met.cost) + _same(met)
     best = _best(final)
     return Search(
         x=np.asarray(final.x[best]),
         cost=float(final.cost[best]),
         steps=int(final.steps[best]),
-        status=jax.tree.map(lambda leaf: leaf[best], final.status),
+        status=int(final.status[best]),
         basins=len(_distinct(met)),
         agreement=float(np.mean(near)),
     )
 
 
-def _screen(samples: Samples, rows: np.ndarray) -> np.ndarray:
-    """Rows that stand for all: every so-manieth, and more of the brightest."""
-    bright = rows[
-        np.argsort(np.nansum(np.asarray(samples.value)[rows], axis=1))[
-            -len(rows) // 20 :
-        ]
-    ]
-    share = SCREEN // 4
-    even = rows[:: -(-len(rows) // (SCREEN - share))]
-    return np.union1d(even, bright[:: max(1, len(bright) // share)][:share])
-
-
 def _best(met: Minima) -> int:
     """The lowest minimum; among equals, one whose solve was completed."""
     cost = np.where(np.isfinite(met.cost), met.cost, np.inf)
-    worse = cost > np.min(cost) + 4 * np.asarray(met.rounding)
-    unfinished = np.asarray(met.status != optx.RESULTS.successful)
+    worse = cost > np.min(cost) + 4 * met.rounding
+    unfinished = met.status != CONVERGED
     return int(np.lexsort((cost, unfinished, worse))[0])
 
 
 def _same(met: Minima) -> np.ndarray:
     """Difference in cost up to which two minima count as one."""
-    return SAME_BASIN * np.abs(met.cost) + 4 * np.asarray(met.rounding)
+    return SAME_BASIN * np.abs(met.cost) + 4 * met.rounding
 
 
 def _distinct(met: Minima) -> np.ndarray:
     """Index of one start per basin, the best first."""
-    cost, same = np.asarray(met.cost), _same(met)
+    cost, same = met.cost, _same(met)
     order = np.argsort(cost)
     new = np.ones(len(order), bool)
     new[1:] = cost[order[1:]] > cost[order[:-1]] + same[order[1:]]
     return order[new & np.isfinite(cost[order])]
 
 
-def _solve(problem: Problem, starts: Array, rtol: float, max_steps: int) -> Minima:
-    """Solve from every start, one after the other in one program.
+def _solve(
+    problem: Problem, starts: AnyArray, count: AnyArray, rtol: float, max_steps: int
+) -> Minima:
+    """Solve from the first ``count`` starts, one after the other in one program.
 
     Each start takes the steps that it needs and no more; batched, all would take those
     of the slowest, and the small matrix products of a batch are slow on a CPU.
@@ -203,10 +196,32 @@ def _solve(problem: Problem, starts: Array, rtol: float, max_steps: int) -> Mini
             cost=solution.state.equations.cost,
             rounding=solution.state.equations.rounding,
             steps=solution.stats["num_steps"],
-            status=solution.result,
+            status=outcome_of(solution.result),
         )
 
-    return jax.lax.map(from_start, starts)
+    def one_more(i, met):
+        return jax.tree.map(lambda m, new: m.at[i].set(new), met, from_start(starts[i]))
+
+    shapes = jax.eval_shape(from_start, starts[0])
+    empty = jax.tree.map(lambda s: jnp.zeros((len(starts), *s.shape), s.dtype), shapes)
+    return jax.lax.fori_loop(0, count, one_more, empty)
 
 
-solve = compiled(_solve, static=("rtol", "max_steps"))
+_compiled_solve = compiled(_solve, static=("rtol", "max_steps"))
+
+
+def solve(
+    problem: Problem, starts: np.ndarray, count: int, rtol: float, max_steps: int
+) -> Minima:
+    """Where the first ``count`` starts end; the others are room that compiles once.
+
+    Args:
+        problem: The fit.
+        starts: Starting points in solver coordinates.
+        count: How many of them to solve from.
+        rtol: Relative decrease of the cost at which to stop.
+        max_steps: Steps after which a start gives up.
+    """
+    asked = np.asarray(count, np.int32)
+    met = _compiled_solve(problem, starts, asked, rtol=rtol, max_steps=max_steps)
+    return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], met)

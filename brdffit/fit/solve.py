@@ -34,10 +34,17 @@ STATUS = (
 )
 
 
-def sentence(outcome: optx.RESULTS, steps: int) -> str:
+CONVERGED = 0  # place of success in `STATUS`
+
+
+def outcome_of(result: optx.RESULTS) -> Int[Array, ""]:
+    """Place of an outcome in `STATUS`."""
+    return jnp.argmax(jnp.stack([jnp.asarray(result == known) for known, _ in STATUS]))
+
+
+def sentence(outcome: int, steps: int) -> str:
     """An outcome in words, without the full stop."""
-    words = next(words for result, words in STATUS if bool(outcome == result))
-    return f"The fit {words} after {steps} steps"
+    return f"The fit {STATUS[outcome][1]} after {steps} steps"
 
 
 class State(eqx.Module):

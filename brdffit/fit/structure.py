@@ -12,6 +12,7 @@ the data. Two uses of the same rows:
 """
 
 import dataclasses
+from functools import partial
 
 import equinox as eqx
 import jax
@@ -83,7 +84,8 @@ def project(problem: Problem, x: Array, derivatives: bool = True):
     places = layout.channel_places(layout.linear)
     eps = 8 * jnp.finfo(problem.blocks.wi.dtype).eps
     energy = jnp.sum(gram[:, -1, -1])
-    gram += jax.vmap(lambda at: _expected(problem, at, gram.shape[-1]))(places)
+    priors = problem.prior_weight[places], problem.prior_mean[places]
+    gram += jax.vmap(partial(_expected, size=gram.shape[-1]))(*priors)
     parts, linear = jax.vmap(
         lambda g, low, high: _eliminate(g, low, high, q, m, derivatives)
     )(gram, problem.lower[places], problem.upper[places])
@@ -91,14 +93,10 @@ def project(problem: Problem, x: Array, derivatives: bool = True):
     return _with_priors(problem, whole, x, problem.nonlinear_places), linear
 
 
-def _expected(problem: Problem, places: Array, size: int) -> Array:
+def _expected(weight: Array, mean: Array, size: int) -> Array:
     """Gram matrix of the priors of one channel's linear parameters, as observations."""
-    weight, mean = problem.prior_weight[places], problem.prior_mean[places]
-    rows = (
-        jnp.zeros((len(places), size))
-        .at[:, 1 : 1 + len(places)]
-        .set(jnp.eye(len(places)))
-    )
+    one = jnp.eye(len(mean))
+    rows = jnp.zeros((len(mean), size)).at[:, 1 : 1 + len(mean)].set(one)
     rows = rows.at[:, -1].set(mean)
     return (rows * weight[:, None]).T @ rows
 

@@ -19,6 +19,7 @@ from brdffit.models import AbstractBRDF
 from brdffit.names import look_up
 from brdffit.parameters import Parameter, parameters, registry_name, replace, values
 from brdffit.per_channel import PerChannel
+from brdffit.types import AnyArray
 
 
 @dataclasses.dataclass(frozen=True)
@@ -162,8 +163,8 @@ def pack(layout: Layout, brdf: AbstractBRDF) -> np.ndarray:
     ).astype(float)
 
 
-def unpack(layout: Layout, brdf: AbstractBRDF, natural: Array) -> AbstractBRDF:
-    """The model with its parameters taken from one vector."""
+def unpack(layout: Layout, brdf: AbstractBRDF, natural: AnyArray) -> AbstractBRDF:
+    """The model with its parameters taken from one vector, of numpy or of JAX."""
     found = {
         name: natural[np.array(places)] if known.spectral else natural[places[0]]
         for (name, known), places in zip(
@@ -172,15 +173,21 @@ def unpack(layout: Layout, brdf: AbstractBRDF, natural: Array) -> AbstractBRDF:
     }
     current = values(brdf)
     if all(found[name].ndim <= current[name].ndim for name in found):
-        shaped = {n: jnp.broadcast_to(v, current[n].shape) for n, v in found.items()}
-        return replace(brdf, shaped)
+        for name in found:
+            if found[name].ndim < current[name].ndim:  # tied
+                found[name] = found[name] * np.ones(current[name].shape)
+        return replace(brdf, found)
     parts = []
     for c in range(layout.channels):
-        part = jax.tree.map(lambda leaf, c=c: leaf[c], channel_models(brdf))
+        part = jax.tree.map(
+            lambda leaf, c=c: jnp.asarray(leaf[c]), channel_models(brdf)
+        )
         own = {n: v[c] if v.ndim else v for n, v in found.items()}
         shapes = {n: v.shape for n, v in values(part).items()}
         parts.append(
-            replace(part, {n: jnp.broadcast_to(v, shapes[n]) for n, v in own.items()})
+            replace(
+                part, {n: jnp.asarray(v).reshape(shapes[n]) for n, v in own.items()}
+            )
         )
     return PerChannel(tuple(parts))
 
@@ -193,8 +200,9 @@ def channel_models(brdf: AbstractBRDF) -> AbstractBRDF:
     channels = Layout.of(brdf).channels
 
     def cut(leaf):
-        if leaf.ndim == 0:
-            return jnp.broadcast_to(leaf, (channels,))
-        return leaf[:, None]
+        whole = np.asarray(leaf)
+        return (
+            np.broadcast_to(whole, (channels,)) if whole.ndim == 0 else whole[:, None]
+        )
 
     return jax.tree.map(cut, eqx.filter(brdf, eqx.is_array))

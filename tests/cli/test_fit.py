@@ -68,3 +68,24 @@ def test_a_fit_that_did_not_converge_has_status_1(run, chalk, monkeypatch):
     status, out, _ = run("fit", chalk, "--model", "phong")
     assert status == 1
     assert "before it converged" in " ".join(out.split())
+
+
+def test_intervals_and_a_loss_are_had_on_request(run, chalk, tmp_path):
+    ask = ("fit", chalk, "--model", "oren_nayar", "--starts", "1", "--loss", "huber")
+    found = json.loads(run(*ask, "--bootstrap", "3", "--json")[1])
+    assert found["loss"] == "huber"
+    assert found["bootstrap"]["resamples"] == 3
+    assert found["bootstrap"]["intervals"]["albedo"][0][0] == pytest.approx(0.6, 0.1)
+    words = ("--profile", "albedo", "--tied", "albedo", "--fix", "sigma=0")
+    ask = ("fit", chalk, "--model", "oren_nayar", "--starts", "1", *words)
+    status, out, err = run(*ask, "--out", tmp_path)
+    assert (status, err) == (0, "")
+    assert "Profile: albedo lies between 0.59" in " ".join(out.split())
+    assert (tmp_path / "profile.png").stat().st_size > 1000
+
+
+def test_a_prior_without_its_deviation_is_refused(run, chalk):
+    ask = ("fit", chalk, "--model", "oren_nayar", "--prior", "sigma=0.3")
+    status, out, err = run(*ask)
+    assert (status, out) == (2, "")
+    assert "prior of `sigma` must be a mean and a standard deviation" in err

@@ -4,7 +4,7 @@ import jax
 import numpy as np
 import pytest
 
-from brdffit.fit.blocks import SIZE, blocks, usable
+from brdffit.fit.blocks import AHEAD, SIZE, blocks, usable
 from brdffit.fit.residual import cosine_weighted, log
 from brdffit.samples import Measurement, as_samples
 
@@ -62,3 +62,15 @@ def test_weights_follow_the_solid_angle():
 def test_few_sizes_serve_all_counts(count, room):
     data = samples(count)
     assert blocks(data, usable(data, log), log, np.dtype(float)).wi.shape[0] == room
+
+
+def test_the_first_blocks_stand_for_all():
+    """The brightest are among them, and no row is lost or met twice."""
+    data = samples(20_000)
+    laid = blocks(data, usable(data, log), log, np.dtype(float))
+    values = laid.value[:, 0].ravel()[:20_000]
+    np.testing.assert_array_equal(np.sort(values), np.asarray(data.value)[:, 0])
+    first = values[: AHEAD * SIZE]
+    assert first.max() > np.quantile(values, 0.999)
+    assert np.mean(first > np.quantile(values, 0.95)) == pytest.approx(0.25, abs=0.03)
+    assert np.median(first) == pytest.approx(np.median(values), rel=0.2)
