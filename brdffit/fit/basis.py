@@ -66,15 +66,24 @@ class Problem(eqx.Module):
         return np.array([p for n in self.layout.nonlinear for p in places[n]], int)
 
 
-@partial(jax.jit, static_argnums=0)
-def _reflectance(layout: Layout, channel: AbstractBRDF, linear, natural, wi, wo):
-    """``f_r (light, place)`` of one channel; traced once, differentiated often."""
+@partial(jax.jit, static_argnums=(0, 6))
+def _reflectance(
+    layout: Layout, channel: AbstractBRDF, linear, natural, wi, wo, ambient: bool
+):
+    """``f_r (light, place)`` of one channel; traced once, differentiated often.
+
+    With ambient light, the diffuse reflectance follows as that of one more light.
+    """
     found = dict(zip(layout.nonlinear, natural, strict=True))
     found |= dict(zip(layout.linear, linear, strict=True))
     shapes = {name: value.shape for name, value in values(channel).items()}
     brdf = replace(channel, {n: v.reshape(shapes[n]) for n, v in found.items()})
     over_places = jax.vmap(brdf.evaluate, in_axes=(1, 1))
-    return jax.vmap(over_places, in_axes=(1, None))(wi, wo)[..., 0]
+    f_r = jax.vmap(over_places, in_axes=(1, None))(wi, wo)[..., 0]
+    if not ambient:
+        return f_r
+    diffuse = jnp.broadcast_to(brdf.diffuse_reflectance[:, None], (1, f_r.shape[1]))
+    return jnp.concatenate([f_r, diffuse.astype(f_r.dtype)])
 
 
 def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
@@ -88,6 +97,7 @@ def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
     layout = problem.layout
     places = tuple(layout.channel_places(layout.nonlinear)[0].tolist())
     dtype = block.wi.dtype
+    ambient = block.weight.shape[0] > block.wi.shape[1]
     zero = jnp.zeros(len(layout.linear), dtype)
     each = jnp.eye(len(layout.linear), dtype=dtype)
 
@@ -96,7 +106,9 @@ def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
         natural = to_natural(layout, x, places).astype(dtype) if places else zero[:0]
 
         def reflectance(linear):
-            return _reflectance(layout, channel, linear, natural, block.wi, block.wo)
+            return _reflectance(
+                layout, channel, linear, natural, block.wi, block.wo, ambient
+            )
 
         # what the rows have in common is worked out once, not again in each of them
         value, push = jax.lax.optimization_barrier(jax.linearize(reflectance, zero))

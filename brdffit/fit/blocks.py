@@ -28,6 +28,8 @@ class Blocks(eqx.Module):
     Attributes:
         wi, wo: Directions.
         weight: What a unit of ``f_r`` adds to the value; one channel when all agree.
+            One more than there are lights where there is ambient light: what a unit of
+            diffuse reflectance adds.
         value: Observations.
         target: The observations after the transform of the residual.
         scale: Weight of a difference from ``target`` (a root: it enters squared); 0
@@ -41,7 +43,7 @@ class Blocks(eqx.Module):
 
     wi: Float[AnyArray, "*block 3 light place"]
     wo: Float[AnyArray, "*block 3 place"]
-    weight: Float[AnyArray, "*block light channel_or_1 place"]
+    weight: Float[AnyArray, "*block light_or_ambient channel_or_1 place"]
     value: Float[AnyArray, "*block channel place"]
     target: Float[AnyArray, "*block channel place"]
     scale: Float[AnyArray, "*block scales place"]
@@ -61,7 +63,10 @@ def usable(samples: Samples, residual: Residual) -> np.ndarray:
     """
     value, weight = np.asarray(samples.value), np.asarray(samples.weight)
     lit = (samples.wi[..., 2] > 0)[..., None] & (weight > 0)
-    use = np.isfinite(value) & lit.any(axis=1) & (samples.wo[:, 2] > 0)[:, None]
+    lit = lit.any(axis=1)
+    if samples.ambient is not None:
+        lit |= np.asarray(samples.ambient) > 0
+    use = np.isfinite(value) & lit & (samples.wo[:, 2] > 0)[:, None]
     if samples.mask is not None:
         use &= samples.mask
     if samples.sigma is not None:
@@ -89,6 +94,9 @@ def blocks(
     up = (samples.wi[..., 2] > 0) & (samples.wo[:, 2] > 0)[:, None]
     wi = np.where(up[..., None], samples.wi, HARMLESS)
     weight = np.where(up[..., None], samples.weight, 0)
+    if samples.ambient is not None:
+        ambient = np.asarray(samples.ambient)[:, None]
+        weight = np.concatenate([weight, ambient], axis=1)
 
     count, lights = len(samples), wi.shape[1]
     number = -(-count // SIZE)

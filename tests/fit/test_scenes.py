@@ -10,6 +10,7 @@ from brdffit.effects import plan
 from brdffit.models import MODELS
 from brdffit.render import Noise, simulate_image, trace
 from brdffit.scene import (
+    Ambient,
     Directional,
     Environment,
     HeightMap,
@@ -40,12 +41,14 @@ SCENES = {
     "a point light": Scene(CAMERA, (Sphere(),), (Point([-1.0, 1.2, 2.0], 16.0),)),
     "a shadow that crosses the sphere": Scene(CAMERA, (Sphere(), BLIND), (SUN,)),
     "a bumpy sphere": Scene(CAMERA, (Sphere(height=DENTS),), (SUN,)),
+    "ambient light": Scene(CAMERA, (Sphere(),), (SUN, Ambient([0.3, 0.4, 0.5]))),
 }
 NEEDED = {
     "three directional lights": set(),
     "a point light": {"falloff"},
     "a shadow that crosses the sphere": {"shadows"},
     "a bumpy sphere": {"bump"},
+    "ambient light": {"ambient"},
 }
 
 
@@ -81,6 +84,7 @@ def test_parameters_are_recovered_through(name):
         ("a point light", "falloff"),
         ("a shadow that crosses the sphere", "shadows"),
         ("a bumpy sphere", "bump"),
+        ("ambient light", "ambient"),
     ],
 )
 def test_an_effect_that_matters_is_missed_by_the_parameters(name, effect):
