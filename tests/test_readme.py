@@ -44,12 +44,18 @@ def test_the_script_has_ten_lines_and_does_the_main_job(tmp_path):
 
 
 def test_the_example_of_a_model_works_at_once(tmp_path):
-    _, model, use = blocks("python")
+    *_, model, use = blocks("python")
     (tmp_path / "minnaert.py").write_text(model)
     printed = run(use, tmp_path)
     assert printed.startswith("minnaert {'albedo'")
     k = float(re.search(r"'k': ([\d.]+)", printed)[1])
     assert k == pytest.approx(1.4, abs=0.02)
+
+
+def test_the_scene_calls_for_what_it_holds(tmp_path):
+    (tmp_path / "scene.toml").write_text(blocks("toml")[0])
+    printed = run(blocks("python")[1], tmp_path)
+    assert printed == "['falloff', 'shadows']\n"
 
 
 def test_commands_are_understood_as_they_stand():
