@@ -32,6 +32,7 @@ from brdffit.fit.basis import (
 from brdffit.fit.blocks import Blocks
 from brdffit.fit.quadratic import minimise_in_box, solve_positive
 from brdffit.fit.transforms import to_natural
+from brdffit.types import AnyArray
 
 
 class NormalEquations(eqx.Module):
@@ -93,7 +94,7 @@ def project(problem: Problem, x: Array, derivatives: bool = True):
     return _with_priors(problem, whole, x, problem.nonlinear_places), linear
 
 
-def _expected(weight: Array, mean: Array, size: int) -> Array:
+def _expected(weight: AnyArray, mean: AnyArray, size: int) -> Array:
     """Gram matrix of the priors of one channel's linear parameters, as observations."""
     one = jnp.eye(len(mean))
     rows = jnp.zeros((len(mean), size)).at[:, 1 : 1 + len(mean)].set(one)
