@@ -14,8 +14,8 @@ def costs(problem: Problem, x: Array, residuals: tuple[Residual, ...]) -> Array:
     Values that a residual cannot compare are left out of its sums.
 
     Returns:
-        ``(residual, 3)``: half the weighted sum of squares, the unweighted sum of
-        squares, and the number of values in it.
+        ``(residual, 3)``: half the weighted sum of squares; the sum of squares in
+        which values weigh as their solid angle alone, and the sum of those weights.
     """
     layout = problem.layout
     linear = x[layout.channel_places(layout.linear)]
@@ -25,6 +25,7 @@ def costs(problem: Problem, x: Array, residuals: tuple[Residual, ...]) -> Array:
         basis = jnp.broadcast_to(basis, (layout.channels, *basis.shape[1:]))
         predicted = mixed(linear, basis)
         base = block.lean if block.known_sigma else block.scale
+        share = 1 if block.share is None else block.share
         found = []
         for residual in residuals:
             transform = transform_in(block, residual)
@@ -35,7 +36,9 @@ def costs(problem: Problem, x: Array, residuals: tuple[Residual, ...]) -> Array:
                 use &= block.value > 0
             error = jnp.where(use, transform(predicted) - target, 0)
             scale = base / jnp.where(use, slope, 1) if block.known_sigma else base
-            tally = (jnp.sum((error * scale) ** 2) / 2, jnp.sum(error**2), jnp.sum(use))
+            square = jnp.sum((error * scale) ** 2) / 2
+            weight = jnp.where(use, share**2, 0)
+            tally = square, jnp.sum(weight * error**2), jnp.sum(weight)
             found.append(jnp.stack(tally))
         return jnp.stack(found)
 

@@ -94,7 +94,7 @@ def examine(
         "cost": cost,
         "costs": {n: float(t[0]) for n, t in zip(RESIDUALS, tallies, strict=True)},
         "rms": {
-            n: math.sqrt(t[1] / max(t[2], 1))
+            n: math.sqrt(t[1] / t[2]) if t[2] > 0 else math.nan
             for n, t in zip(RESIDUALS, tallies, strict=True)
         },
         "count": count,

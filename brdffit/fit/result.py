@@ -42,7 +42,8 @@ class FitResult:
         cost: Half the weighted sum of squares of that residual, solid angles and known
             errors included, priors not.
         costs: The same under every residual, at this solution.
-        rms: Root of the mean square under every residual, all values weighing the same.
+        rms: Root of the mean square under every residual; values weigh as their solid
+            angle, when the data tell it, and not by their errors.
         explained: Share of the weighted variance of the data that the model explains;
             None where the data do not vary.
         count: Number of values used (samples times channels).
@@ -150,6 +151,8 @@ def load_result(path: str | os.PathLike) -> FitResult:
         fields["correlation"] = np.array(fields["correlation"])
         for name in ("held", "labels", "channels"):
             fields[name] = tuple(fields[name])
+        for name in ("costs", "rms"):
+            fields[name] = {n: float(v) for n, v in fields[name].items()}
         for name in ("aicc", "bic"):
             fields[name] = float(fields[name])
         return FitResult(brdf=brdf, **fields)

@@ -33,7 +33,7 @@ class Entry:
     Attributes:
         result: The fit to all directions.
         held_out: Root mean square of the residual on directions that a second fit,
-            to the others, never saw.
+            to the others, never saw; they weigh as their solid angle.
         tied: True when it differs from the winner on those directions by no more than
             noise: neither in squared error nor in magnitude by two standard errors.
         look: Computes `colour`.
@@ -158,6 +158,7 @@ def compare(
             f"some out, but has {len(rows)}."
         )
     seen, unseen = split(rows, seed)
+    share = _share(samples.take(unseen))
 
     options = {"residual": chosen, "starts": starts}
 
@@ -168,7 +169,7 @@ def compare(
         blind = fit(model, samples.take(seen), **options)
         errors = misfit(blind.brdf, samples.take(unseen), chosen)
         # the square of each direction, over its channels
-        return result, np.nanmean(errors**2, axis=1)
+        return result, np.nanmean(errors**2, axis=1) * share
 
     fitted = [tried(model) for model in models or list(MODELS)]
     fitted.sort(key=_rms)
@@ -202,6 +203,13 @@ def compare(
         data=samples.name,
         second_lobe=told,
     )
+
+
+def _share(samples: Samples) -> np.ndarray:
+    """Weight of each direction by its solid angle, 1 on average."""
+    if samples.solid_angle is None:
+        return np.ones(len(samples))
+    return np.asarray(samples.solid_angle) / np.mean(samples.solid_angle)
 
 
 def _rms(tried: tuple[FitResult, np.ndarray]) -> float:

@@ -91,3 +91,20 @@ def test_black_coatings_are_explained_by_a_microfacet_lobe(name, ggx, lambert):
     assert rms["ggx"] < ggx
     assert rms["lambert"] == pytest.approx(lambert, abs=0.005)
     assert list(comparison.results)[:2] == ["ggx", "phong"]
+
+
+def test_directions_weigh_as_their_solid_angle(measurement):
+    """One wild direction that stands for nothing moves neither error nor ranking."""
+    wild = np.array(measurement.f_r)
+    wild[::10] *= 30
+    area = np.ones(len(wild))
+    area[::10] = 1e-9
+    spoiled = dataclasses.replace(
+        measurement, f_r=wild, solid_angle=area, sigma=None, mask=None
+    )
+    result = brdffit.fit("lambert", spoiled, residual="log", starts=1)
+    kept = np.arange(len(wild)) % 10 > 0
+    errors = np.log(np.asarray(result.parameters["albedo"]) / np.pi / wild[kept])
+    assert result.rms["log"] == pytest.approx(np.sqrt(np.mean(errors**2)), rel=1e-4)
+    comparison = brdffit.compare(spoiled, ["lambert"], residual="log", starts=1)
+    assert comparison.entries[0].held_out == pytest.approx(result.rms["log"], rel=0.5)
