@@ -16,7 +16,6 @@ LOG1P_SERIES = tuple((-1) ** n / (n + 1) for n in reversed(range(11)))
 # of arctan(x) / x in powers of x^2, highest first
 ARCTAN_SERIES = tuple((-1) ** n / (2 * n + 1) for n in reversed(range(20)))
 
-SMALLEST_BASE = 1e-18  # of a power: the square of its inverse is still a number
 SQRT_PI = 1.7724538509055159
 
 
@@ -64,9 +63,9 @@ def pow_near_one(x: Real, deficit: Real, exponent: Real) -> Real:
 
     A high power of a number close to 1 keeps all its digits when that number is given
     by its distance from 1 as well, ``deficit = 1 - x``. Far from 1 it is ``x`` that has
-    the digits.
+    the digits; one smaller than the rounding of a cosine may be 0, and counts as 0.
     """
-    positive, near = x > SMALLEST_BASE, jnp.abs(deficit) < 0.5
+    positive, near = x > jnp.finfo(x.dtype).eps / 2, jnp.abs(deficit) < 0.5
     apart = jnp.log(jnp.where(positive & ~near, x, 1.0))
     power = exponent * (apart + jnp.log1p(-jnp.where(near, deficit, 0.0)))
     largest = 0.9 * jnp.log(jnp.finfo(x.dtype).max)

@@ -74,13 +74,8 @@ class Glass(eqx.Module):
 
     eta: Float[Array, ""] = eqx.field(
         default=1.5,
-        converter=lambda value: jnp.asarray(values.positive("eta", value), float),
+        converter=lambda value: jnp.asarray(_index(value), float),
     )
-
-    def __check_init__(self) -> None:
-        """Refuse glass that is not there."""
-        if self.eta == 1:
-            raise ValueError("`eta` must not be 1, because such glass is not there.")
 
     def reflected(self, cos_theta: Cosines, inside: Float[Array, " ray"]) -> Cosines:
         """Share of the light that is reflected; all of it beyond the critical angle.
@@ -91,6 +86,13 @@ class Glass(eqx.Module):
         """
         relative = jnp.where(inside > 0, 1 / self.eta, self.eta)
         return jax.vmap(fresnel.dielectric)(cos_theta, relative)
+
+
+def _index(value: Any) -> float:
+    """A relative index of refraction that changes the way of light."""
+    if (index := values.positive("eta", value)) == 1:
+        raise ValueError("`eta` must not be 1, because such glass is not there.")
+    return index
 
 
 SMOOTH: dict[str, Any] = {"mirror": Mirror, "glass": Glass}

@@ -33,6 +33,7 @@ def save(
             in .exr.
         OSError: A file cannot be written.
     """
+    _require_exr(Path(path))
     if samples.value is None or samples.pixels is None:
         raise ValueError(f"Samples for `{path}` must have values and pixels.")
     image = samples.pixels.images(samples.value, background=0.0)[0]
@@ -53,8 +54,12 @@ def save_image(
         OSError: A file cannot be written.
     """
     path = Path(path)
-    if path.suffix.lower() != ".exr":
-        raise ValueError(f"Image `{path}` must end in .exr to keep its values.")
+    _require_exr(path)
     save_scene(scene, path.with_suffix(".toml"), provenance)
     images.write(path, image, channels)
     images.write_preview(path.with_suffix(".png"), image)
+
+
+def _require_exr(path: Path) -> None:
+    if path.suffix.lower() != ".exr":
+        raise ValueError(f"Image `{path}` must end in .exr to keep its values.")

@@ -115,7 +115,7 @@ def test_wrong_residual_suggests_the_nearest(refuse, chalk, tmp_path):
     [
         ("albedo=3", "`albedo` of `lambert` must lie in [0, 1], but is 3"),
         ("albedo=nan", "`albedo` of `lambert` must lie in [0, 1], but is nan"),
-        ("albedo=0.1,0.2", "must be held at 1 numbers or one, but is given 2"),
+        ("albedo=0.1,0.2", "must be held at one number, but is given 2"),
         ("albedo=half", "must be given numbers"),
         ("albedo", "must be given name=value"),
         ("albdo=0.5", "Did you mean `albedo`?"),

@@ -86,7 +86,7 @@ def test_an_own_scene_is_used(run, tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text(
         'camera = {kind = "orthographic", resolution = 8}\n'
-        'shape = {kind = "sphere"}\n'
+        'shapes = [{kind = "sphere"}]\n'
         'lights = [{kind = "directional", direction = [0, 0, 1], irradiance = 2.0}]\n'
     )
     path = tmp_path / "ball.exr"
