@@ -10,8 +10,8 @@ Blinn-Phong.
 Half vectors of a MERL file have azimuth 0, so the two slopes of `ward_duer` do not tell
 a grain: one of them is the width of the lobe, the other only scales it. A second
 `ggx_lobe` cannot vanish, because towards grazing it reflects even with f0 = 0; so
-`ggx+ggx_lobe` may be worse than `ggx`. Where it is worse by far, under log, its starts
-have missed the better minimum.
+`ggx+ggx_lobe` may be a little worse than `ggx`. Errors weigh cells as their solid
+angle, as the fits do.
 
 It needs the folder `merl_standins` of the data folder that `BRDFFIT_DATA` names.
 """
