@@ -12,6 +12,7 @@ of the cost of noise alone; `missed` is the share of cases that end there by mor
 
 import time
 
+import jax.numpy as jnp
 import numpy as np
 
 import brdffit
@@ -43,7 +44,7 @@ def truth(name, random):
             natural.append(np.exp(random.uniform(np.log(low), np.log(high))))
         else:
             natural.append(random.uniform(low, high))
-    return unpack(layout, from_name(name, 1), np.array(natural, np.float32))
+    return unpack(layout, from_name(name, 1), jnp.array(natural, jnp.float32))
 
 
 def middle(name):
@@ -51,7 +52,7 @@ def middle(name):
     layout = Layout.of(from_name(name, 1))
     low, high = typical_box(layout)
     places = tuple(range(len(layout.labels)))
-    natural = np.asarray(to_natural(layout, np.float32(low + high) / 2, places))
+    natural = to_natural(layout, jnp.float32(low + high) / 2, places)
     return unpack(layout, from_name(name, 1), natural)
 
 
