@@ -98,7 +98,7 @@ def fetch(
     folder.mkdir(parents=True, exist_ok=True)
     known = checksum or recorded(folder).get(file)
     base = (url or database.url).rstrip("/") + "/"
-    logging.getLogger(pooch.get_logger().name).setLevel(logging.ERROR)
+    pooch.get_logger().setLevel(logging.ERROR)  # progress is shown by our own bar
     store = pooch.create(
         path=folder,
         base_url=base,
