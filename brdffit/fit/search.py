@@ -99,8 +99,8 @@ def search(
         sample = dataclasses.replace(whole, blocks=few)
         met = solve(sample, room, count, rtol=rtol, max_steps=max_steps)
         finalists = _distinct(met)[:FINALISTS]
-        count = len(finalists)
-        room[:count] = met.x[finalists]
+        room[: len(finalists)] = met.x[finalists]
+        count = max(len(finalists), 1)  # without any, the first start is tried again
     final = solve(whole, room, count, rtol=rtol, max_steps=max_steps)
     return outcome(final if met is None else met, final)
 
