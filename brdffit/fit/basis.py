@@ -147,6 +147,14 @@ def mixed(linear: Array, basis: Array) -> Array:
     return jnp.einsum("cj,c...jp->c...p", combination, basis)
 
 
+def predicted(problem: Problem, x: Array, block: Blocks) -> Array:
+    """Values ``(channel, place)`` of a block under all parameters ``x``."""
+    layout = problem.layout
+    basis = rows(problem, x[problem.nonlinear_places], block, False)
+    basis = jnp.broadcast_to(basis, (layout.channels, *basis.shape[1:]))
+    return mixed(x[layout.channel_places(layout.linear)], basis)
+
+
 def transform_in(block: Blocks, residual: Residual):
     """The transform of a residual on values ``(channel, place)`` of a block."""
     cosines = jnp.asarray(block.cos_i)[None], jnp.asarray(block.cos_o)[None]

@@ -11,7 +11,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Array, Float, Int
 
 from brdffit.fit.residual import Residual
 from brdffit.samples import Samples
@@ -53,6 +53,10 @@ class Blocks(eqx.Module):
     count: Int[AnyArray, ""]
     share: Float[AnyArray, "*block 1 place"] | None
     known_sigma: bool = eqx.field(static=True)
+
+    def used_share(self) -> Array:
+        """``share``, 1 without any, and 0 where masked."""
+        return jnp.where(self.scale > 0, 1 if self.share is None else self.share, 0)
 
 
 def usable(samples: Samples, residual: Residual) -> np.ndarray:
@@ -124,11 +128,11 @@ def blocks(
     return Blocks(
         wi=lay_directions(wi),
         wo=lay_directions(samples.wo),
-        weight=lay(_once(weight), 1 / lights),
+        weight=lay(_once(weight, axis=-1), 1 / lights),
         value=value.astype(dtype),
         target=target.astype(dtype),
-        scale=_once_laid(scale).astype(dtype),
-        lean=_once_laid(lean).astype(dtype),
+        scale=_once(scale, axis=1).astype(dtype),
+        lean=_once(lean, axis=1).astype(dtype),
         cos_i=cosines[0],
         cos_o=cosines[1],
         count=np.asarray(number, np.int32),
@@ -166,16 +170,10 @@ def _representative_first(samples: Samples, rows: np.ndarray) -> np.ndarray:
     return rows[np.concatenate([first, others])]
 
 
-def _once(array: np.ndarray) -> np.ndarray:
-    """One channel instead of all when they agree."""
-    same = np.all(array == array[..., :1])
-    return array[..., :1] if same else array
-
-
-def _once_laid(array: np.ndarray) -> np.ndarray:
-    """The same for values that are laid out in blocks."""
-    same = np.all(array == array[:, :1])
-    return array[:, :1] if same else array
+def _once(array: np.ndarray, axis: int) -> np.ndarray:
+    """One channel instead of all, which stand along an axis, when they agree."""
+    first = array.take([0], axis)
+    return first if np.all(array == first) else array
 
 
 def _bucket(number: int) -> int:

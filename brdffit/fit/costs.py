@@ -4,7 +4,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from brdffit.fit.basis import Problem, mixed, over_blocks, rows, transform_in
+from brdffit.fit.basis import Problem, over_blocks, predicted, transform_in
 from brdffit.fit.residual import Residual
 
 
@@ -17,13 +17,9 @@ def costs(problem: Problem, x: Array, residuals: tuple[Residual, ...]) -> Array:
         ``(residual, 3)``: half the weighted sum of squares; the sum of squares in
         which values weigh as their solid angle alone, and the sum of those weights.
     """
-    layout = problem.layout
-    linear = x[layout.channel_places(layout.linear)]
 
     def add(block):
-        basis = rows(problem, x[problem.nonlinear_places], block, False)
-        basis = jnp.broadcast_to(basis, (layout.channels, *basis.shape[1:]))
-        predicted = mixed(linear, basis)
+        value = predicted(problem, x, block)
         base = block.lean if block.known_sigma else block.scale
         share = 1 if block.share is None else block.share
         found = []
@@ -31,10 +27,10 @@ def costs(problem: Problem, x: Array, residuals: tuple[Residual, ...]) -> Array:
             transform = transform_in(block, residual)
             one = jnp.ones_like(block.value)
             target, slope = jax.jvp(transform, (block.value,), (one,))
-            use = jnp.broadcast_to(base > 0, predicted.shape) & (slope > 0)
+            use = jnp.broadcast_to(base > 0, value.shape) & (slope > 0)
             if residual.positive:
                 use &= block.value > 0
-            error = jnp.where(use, transform(predicted) - target, 0)
+            error = jnp.where(use, transform(value) - target, 0)
             scale = base / jnp.where(use, slope, 1) if block.known_sigma else base
             square = jnp.sum((error * scale) ** 2) / 2
             weight = jnp.where(use, share**2, 0)

@@ -14,7 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from brdffit.compiled import compiled
-from brdffit.fit.basis import Problem, mixed, over_blocks, rows, transform_in
+from brdffit.fit.basis import Problem, over_blocks, predicted, transform_in
 from brdffit.fit.loss import Loss
 
 OF_NORMAL = 1.4826  # standard deviation of normal noise, in median magnitudes
@@ -31,20 +31,16 @@ def inflation(problem: Problem, x) -> jax.Array:
 
     Weighted by the share of the solid angle, as the fit is.
     """
-    loss, layout = problem.loss, problem.layout
+    loss = problem.loss
     assert isinstance(loss, Loss)  # for the type checker
-    linear = x[layout.channel_places(layout.linear)]
 
     def psi(u):
         return u * loss.weight(u * u)
 
     def add(block):
-        basis = rows(problem, x[problem.nonlinear_places], block, False)
-        basis = jnp.broadcast_to(basis, (layout.channels, *basis.shape[1:]))
         transform = transform_in(block, problem.residual)
-        error = transform(mixed(linear, basis)) - block.target
-        share = jnp.where(block.scale > 0, 1 if block.share is None else block.share, 0)
-        share = jnp.broadcast_to(share, error.shape)
+        error = transform(predicted(problem, x, block)) - block.target
+        share = jnp.broadcast_to(block.used_share(), error.shape)
         u = error * block.scale / jnp.where(share > 0, share, 1) / problem.spread
         value, slope = jax.jvp(psi, (u,), (jnp.ones_like(u),))
         return jnp.stack([jnp.sum(share**2 * f) for f in (value**2, slope, share > 0)])

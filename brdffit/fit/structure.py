@@ -205,7 +205,7 @@ def _lost(problem: Problem, block: Blocks, error: Array) -> tuple[Array, Array]:
     """Weights that a loss gives to errors ``(channel, place)``, and its costs."""
     if problem.loss is None:
         return jnp.ones((), error.dtype), jnp.zeros(error.shape[0])
-    share = jnp.where(block.scale > 0, 1 if block.share is None else block.share, 0)
+    share = block.used_share()
     precision = jnp.where(share > 0, block.scale / jnp.where(share > 0, share, 1), 0)
     spread = problem.spread.astype(error.dtype)
     square = (error * precision / spread) ** 2
