@@ -4,6 +4,8 @@ import json
 import xml.etree.ElementTree as ElementTree
 
 import jax.numpy as jnp
+import MaterialX as mx
+import mitsuba as mi
 import numpy as np
 import pytest
 
@@ -74,7 +76,6 @@ def test_gltf_formula_is_that_of_the_specification():
 
 
 def test_materialx_is_validated_and_holds_oren_and_nayar_exactly(tmp_path):
-    mx = pytest.importorskip("MaterialX")
     brdf = MODELS["oren_nayar"](albedo=[0.3, 0.4, 0.5], sigma=0.3)
     path = tmp_path / "clay.mtlx"
     done = brdffit.export(brdf, "materialx", path)
@@ -125,7 +126,6 @@ def test_materialx_metal_gives_back_what_is_scattered_more_than_once():
     ],
 )
 def test_mitsuba_reads_what_is_written(name, given, plugin, largest, tmp_path):
-    mi = pytest.importorskip("mitsuba")
     options = {} if name == "lambert" else {"separable": True}
     path = tmp_path / "x.xml"
     done = brdffit.export(MODELS[name](**given, **options), "mitsuba", path)
@@ -137,7 +137,6 @@ def test_mitsuba_reads_what_is_written(name, given, plugin, largest, tmp_path):
 
 
 def test_masking_of_mitsuba_is_told_with_its_error(tmp_path):
-    pytest.importorskip("mitsuba")
     brdf = MODELS["conductor_ggx"](**GOLD, alpha=0.4)
     done = brdffit.export(brdf, "mitsuba", tmp_path / "x.xml")
     (note,) = done.notes
@@ -147,7 +146,6 @@ def test_masking_of_mitsuba_is_told_with_its_error(tmp_path):
 
 
 def test_mitsuba_takes_the_nearer_of_a_blend_and_its_principled(tmp_path):
-    mi = pytest.importorskip("mitsuba")
     brdf = MODELS["ggx"](diffuse=[0.1, 0.05, 0.02], f0=[0.6, 0.4, 0.2], separable=True)
     path = tmp_path / "x.xml"
     done = brdffit.export(brdf, "mitsuba", path)
@@ -158,7 +156,6 @@ def test_mitsuba_takes_the_nearer_of_a_blend_and_its_principled(tmp_path):
 
 
 def test_any_other_model_becomes_the_nearest_principled():
-    pytest.importorskip("mitsuba")
     brdf = MODELS["phong"](diffuse=[0.3, 0.2, 0.1], specular=0.1, exponent=30)
     material = mitsuba.translate(brdf)
     assert material.parameters["type"] == "principled"
