@@ -1,9 +1,12 @@
 """The field: everyone who solves a problem, and the lines of a table they leave."""
 
 from benchmarks import ceres, plain
+from benchmarks.chart import dots
 from benchmarks.measure import Contestant, contest, row
 from benchmarks.ours import solve_alone, whole_fit
 from benchmarks.problems import Problem
+from benchmarks.record import facts
+from experiments.record import Record
 
 
 def field(problem: Problem) -> list[Contestant]:
@@ -31,3 +34,11 @@ def timed(problem: Problem, case: dict, turns: int, contestants=None) -> list[di
     entries = contest(contestants or field(problem), problem.cost, turns)
     ours = dict(zip(("float32", "float64"), entries[:2], strict=True))
     return [case | row(entry, ours) for entry in entries]
+
+
+def recorded(record: Record, case: dict, rows: list[dict], turns: int) -> list[dict]:
+    """The lines of one case, after table, figure and facts were written."""
+    record.table(rows)
+    record.figure(dots(rows, tuple(case)))
+    record.close(**facts(turns))
+    return rows

@@ -4,11 +4,10 @@ About 100,000 pairs of directions in three channels with noise of 1 %. The logar
 lets no parameter be eliminated, so the engine takes its general path.
 """
 
-from benchmarks.chart import dots
-from benchmarks.field import timed
+from benchmarks.field import recorded, timed
 from benchmarks.measure import use_one_core
 from benchmarks.problems import SEED, goniometer
-from benchmarks.record import RESULTS, facts
+from benchmarks.record import RESULTS
 from experiments.record import Record
 
 SAMPLES, TURNS = 100_000, 7
@@ -19,11 +18,7 @@ def main(folder=RESULTS / "gonio_fit", samples=SAMPLES, turns=TURNS, model="ggx"
     record = Record(folder, SEED)
     problem = goniometer(model, samples)
     case = {"model": model, "samples": len(problem.samples)}
-    rows = timed(problem, case, turns)
-    record.table(rows)
-    record.figure(dots(rows, tuple(case)))
-    record.close(**facts(turns))
-    return rows
+    return recorded(record, case, timed(problem, case, turns), turns)
 
 
 if __name__ == "__main__":

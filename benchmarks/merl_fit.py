@@ -8,12 +8,11 @@ import tempfile
 from pathlib import Path
 
 from benchmarks import ceres, plain
-from benchmarks.chart import dots
-from benchmarks.field import timed
+from benchmarks.field import recorded, timed
 from benchmarks.measure import use_one_core
 from benchmarks.ours import solve_alone, whole_fit
 from benchmarks.problems import SEED, merl, write_merl
-from benchmarks.record import RESULTS, facts
+from benchmarks.record import RESULTS
 from experiments.record import Record
 
 TURNS = 3
@@ -48,11 +47,7 @@ def main(folder=RESULTS / "merl_fit", turns=TURNS, model="ggx", every=1):
         write_merl(model, file)
         problem = merl(model, file, every)
     case = {"model": model, "samples": len(problem.samples)}
-    rows = timed(problem, case, turns, field(problem))
-    record.table(rows)
-    record.figure(dots(rows, tuple(case)))
-    record.close(**facts(turns))
-    return rows
+    return recorded(record, case, timed(problem, case, turns, field(problem)), turns)
 
 
 if __name__ == "__main__":
