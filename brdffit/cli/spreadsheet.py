@@ -6,8 +6,8 @@ from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
-from brdffit.cli.tables import rows
 from brdffit.files import replacing
+from brdffit.fit.numbers import rows
 from brdffit.fit.select import Comparison
 
 

@@ -1,11 +1,9 @@
 import dataclasses
 import math
 
-import pytest
-
 from brdffit import MODELS
 from brdffit.cli.console import output
-from brdffit.cli.tables import parameter_table, ranking_table, rounded, side_by_side
+from brdffit.cli.tables import parameter_table, ranking_table, side_by_side
 from tests.results import comparison_of, result_of
 
 
@@ -15,24 +13,6 @@ def text_of(table, width=200):
     with console.capture() as captured:
         console.print(table)
     return captured.get()
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "shown"),
-    [
-        (0.363673, 0.0027748, ("0.3637", "0.0028")),
-        (13.45, 0.0098, ("13.4500", "0.0098")),
-        (471.463, 0.86, ("471.46", "0.86")),
-        (1234.5, 152.0, ("1230", "150")),
-        (0.0, 0.00035, ("0.00000", "0.00035")),
-        (0.2, 1e-9, ("0.2", "1e-09")),
-        (3.1e-7, 2e-8, ("3.1e-07", "2e-08")),
-        (0.5, 0.0, ("0.5", "")),
-        (0.84123, math.inf, ("0.841", "undetermined")),
-    ],
-)
-def test_values_end_where_their_error_begins(value, error, shown):
-    assert rounded(value, error) == shown
 
 
 def test_table_tells_bounds_units_and_doubts():
