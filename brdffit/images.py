@@ -27,6 +27,7 @@ INTEGER = (".png", ".tif", ".tiff")
 SUFFIXES = (".exr", ".hdr", *INTEGER)
 SMALL = 50_000_000  # bytes of pixels that any file may unpack to
 MOST_PACKED = 50  # bytes of pixels for each byte of a larger file
+EIGHT_BITS = "has 8 bits a channel, too few: save it as linear EXR, 16-bit PNG or TIFF."
 
 
 class Picture(NamedTuple):
@@ -46,17 +47,14 @@ def read(path: str | Path) -> Picture:
         OSError: The file is missing, empty, truncated or not an image.
         ValueError: The suffix is unknown, or the file has 8 bits a channel.
     """
-    path = _existing(path)
+    path = existing(path)
     if path.suffix.lower() == ".exr":
         picture = _read_exr(path)
     else:
         stored, channels = _read_stored(path)
         if stored.dtype == np.uint8:
-            raise ValueError(
-                f"Image `{path}` has 8 bits a channel, too few to measure with: save "
-                "it as linear EXR, 16-bit PNG or TIFF."
-            )
-        picture = Picture(_as_float32(stored), channels)
+            raise ValueError(f"Image `{path}` {EIGHT_BITS}")
+        picture = Picture(as_float32(stored), channels)
     broken = np.count_nonzero(~np.isfinite(picture.pixels).all(axis=-1))
     if broken:
         warnings.warn(
@@ -71,7 +69,7 @@ def read_mask(path: str | Path) -> Bool[np.ndarray, "row column"]:
     Raises:
         OSError: The file is missing, empty, truncated or not an image.
     """
-    path = _existing(path)
+    path = existing(path)
     exr = path.suffix.lower() == ".exr"
     pixels, channels = _read_exr(path) if exr else _read_stored(path)
     colours = [i for i, name in enumerate(channels) if name != "A"]
@@ -146,7 +144,7 @@ def write_preview(path: str | Path, image: Image, exposure: float = 1.0) -> None
 
 def _read_exr(path: Path) -> Picture:
     try:
-        with _silence():
+        with silence():
             header = OpenEXR.File(str(path), header_only=True).header()
         low, high = np.asarray(header["dataWindow"], np.int64)
         rows, columns = (int(n) for n in high - low + 1)
@@ -155,7 +153,7 @@ def _read_exr(path: Path) -> Picture:
         raise OSError(f"Image `{path}` is not a complete EXR file.") from error
     _refuse_bomb(path, rows * columns * count)
     try:
-        with _silence():
+        with silence():
             planes = OpenEXR.File(str(path), separate_channels=True).channels()
             pixels = {name: planes[name].pixels for name in planes}
     except (RuntimeError, ValueError, TypeError) as error:
@@ -184,7 +182,7 @@ def _write_exr(path: Path, image: np.ndarray, channels: tuple[str, ...]) -> None
     named = {n: np.ascontiguousarray(p) for n, p in zip(channels, planes, strict=True)}
     with replacing(path) as temporary:
         try:
-            with _silence():
+            with silence():
                 OpenEXR.File(header, named).write(str(temporary))
         except RuntimeError as error:
             raise OSError(f"OpenEXR says: {error}") from error
@@ -192,11 +190,9 @@ def _write_exr(path: Path, image: np.ndarray, channels: tuple[str, ...]) -> None
 
 def _read_stored(path: Path) -> tuple[np.ndarray, tuple[str, ...]]:
     """Numbers as the file stores them, and channels; alpha is not multiplied in."""
-    if path.suffix.lower() not in SUFFIXES:
-        raise ValueError(_unknown_suffix(path))
     keep_alpha = OpenImageIO.ImageSpec()
     keep_alpha["oiio:UnassociatedAlpha"] = 1
-    with _silence():
+    with silence():
         source = OpenImageIO.ImageInput.open(str(path), keep_alpha)
         if source:
             spec = source.spec()
@@ -238,19 +234,23 @@ def _write_stored(path: Path, image: np.ndarray) -> None:
             raise OSError(f"OpenImageIO says: {reason}")
 
 
-def _as_float32(pixels: np.ndarray) -> Image:
+def as_float32(pixels: np.ndarray) -> Image:
+    """Stored numbers as linear values; integers are divided by the largest."""
     if np.issubdtype(pixels.dtype, np.integer):
         largest = np.iinfo(pixels.dtype).max
         return (pixels / np.float64(largest)).astype(np.float32)
     return pixels.astype(np.float32)
 
 
-def _existing(path: str | Path) -> Path:
+def existing(path: str | Path) -> Path:
+    """The path of an image that is there and not empty."""
     path = Path(path)
     if not path.is_file():
         raise FileNotFoundError(f"Image `{path}` does not exist.")
     if path.stat().st_size == 0:
         raise OSError(f"Image `{path}` is empty.")
+    if path.suffix.lower() not in SUFFIXES:
+        raise ValueError(_unknown_suffix(path))
     return path
 
 
@@ -259,7 +259,7 @@ def _unknown_suffix(path: Path) -> str:
 
 
 @contextlib.contextmanager
-def _silence() -> Iterator[None]:
+def silence() -> Iterator[None]:
     """Keep decoders from printing what the caller says in a sentence."""
     saved = [(stream, os.dup(stream)) for stream in (1, 2)]
     with open(os.devnull, "w") as nowhere, contextlib.redirect_stdout(nowhere):

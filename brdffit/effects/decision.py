@@ -78,8 +78,7 @@ class View:
         step = int(np.ceil(np.sqrt(max(rows * columns / MOST, 1))))
         index = np.arange(rows * columns).reshape(rows, columns)
         chosen = index[step // 2 :: step, step // 2 :: step].ravel()
-        origin, direction = self.scene.camera.rays()
-        return origin[chosen], direction[chosen]
+        return self.scene.camera.rays(chosen)
 
     @cached_property
     def regions(self) -> Regions:

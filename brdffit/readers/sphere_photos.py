@@ -44,6 +44,7 @@ BEGINS = "with a file light_directions.txt in it"
 DIRECTIONS = "light_directions.txt"
 INTENSITIES = "light_intensities.txt"
 NORMALS = "Normal_gt"
+RADIANCE = float(1 / np.pi)  # of the pixel value 1, as said above
 NO_PHOTOGRAPHS = ("mask", "normal")  # how names of other images in the folder begin
 
 
@@ -185,5 +186,5 @@ def read_frame(
     mask &= validity.above_horizon(samples.wo)[:, None]
     if photograph.suffix.lower() in images.INTEGER:
         mask &= pixel < 1
-    value = pixel / np.float32(np.pi)
+    value = pixel * np.float32(RADIANCE)
     return dataclasses.replace(samples, value=value, mask=mask, channels=channels)

@@ -15,3 +15,7 @@ from brdffit.render.simulate import (
     simulate_image as simulate_image,
     simulate_measurement as simulate_measurement,
 )
+from brdffit.render.texture import (
+    render_texture as render_texture,
+    shade_texels as shade_texels,
+)

@@ -83,7 +83,7 @@ def trace_paths(
     """
     geometry = geometry or Geometry(scene.shapes)
     meet = meeting(geometry, plan)
-    origin, direction = (array[rows] for array in scene.camera.rays())
+    origin, direction = scene.camera.rays(rows)
     pixel = np.arange(scene.camera.shape[0] * scene.camera.shape[1])[rows]
     hits = meet(origin, direction)
     missed = hits.missed(len(pixel))

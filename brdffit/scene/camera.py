@@ -8,12 +8,15 @@ from functools import partial
 
 import equinox as eqx
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from brdffit.scene import values
 
 Rays = Float[np.ndarray, "pixel 3"]
 Vector = Float[np.ndarray, "3"]
+Some = slice | Int[np.ndarray, " pixel"]
+
+ALL = slice(None)
 
 ORIGIN = (0.0, 0.0, 0.0)
 UP = (0.0, 1.0, 0.0)
@@ -57,10 +60,14 @@ class Orthographic(eqx.Module):
         """Rows and columns of the image."""
         return _shape(self.resolution)
 
-    def rays(self) -> tuple[Rays, Rays]:
-        """Origin and unit direction of the ray of each pixel, row by row."""
+    def rays(self, pixels: Some = ALL) -> tuple[Rays, Rays]:
+        """Origin and unit direction of the ray of each pixel, or of some.
+
+        Args:
+            pixels: Which, counted row by row from the top left.
+        """
         right, up = _axes(self.towards, self.up)
-        x, y = (self.height / 2 * across for across in _plane(self.shape))
+        x, y = (self.height / 2 * across for across in _plane(self.shape, pixels))
         origin = self.target + FAR * self.towards + x * right + y * up
         return origin, np.broadcast_to(-self.towards, origin.shape)
 
@@ -116,11 +123,15 @@ class Perspective(eqx.Module):
         back = self.position - self.target
         return back / np.linalg.norm(back)
 
-    def rays(self) -> tuple[Rays, Rays]:
-        """Origin and unit direction of the ray of each pixel, row by row."""
+    def rays(self, pixels: Some = ALL) -> tuple[Rays, Rays]:
+        """Origin and unit direction of the ray of each pixel, or of some.
+
+        Args:
+            pixels: Which, counted row by row from the top left.
+        """
         right, up = _axes(self._towards, self.up)
         half = np.tan(np.radians(self.field_of_view) / 2)
-        x, y = (half * across for across in _plane(self.shape))
+        x, y = (half * across for across in _plane(self.shape, pixels))
         direction = x * right + y * up - self._towards
         direction /= np.linalg.norm(direction, axis=1, keepdims=True)
         return np.broadcast_to(self.position, direction.shape), direction
@@ -133,13 +144,13 @@ def _shape(resolution: int | tuple[int, int]) -> tuple[int, int]:
     return resolution if isinstance(resolution, tuple) else (resolution, resolution)
 
 
-def _plane(shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
+def _plane(shape: tuple[int, int], pixels: Some) -> tuple[np.ndarray, np.ndarray]:
     """Place ``(pixel, 1)`` of pixel centres, up and down from -1 to 1, row by row."""
     rows, columns = shape
-    across = (2 * np.arange(columns) + 1 - columns) / rows
-    down = (2 * np.arange(rows) + 1) / rows - 1
-    y, x = np.meshgrid(-down, across, indexing="ij")
-    return x.reshape(-1, 1), y.reshape(-1, 1)
+    if isinstance(pixels, slice):
+        pixels = np.arange(*pixels.indices(rows * columns))
+    row, column = np.divmod(pixels[:, None], columns)
+    return (2 * column + 1 - columns) / rows, -((2 * row + 1) / rows - 1)
 
 
 def _axes(towards: Vector, up: Vector) -> tuple[Vector, Vector]:

@@ -49,3 +49,12 @@ def test_rays_of_a_perspective_camera_spread_by_its_field_of_view():
 def test_a_camera_that_looks_nowhere_is_refused(wrong, sentence):
     with pytest.raises(ValueError, match=sentence):
         Perspective(**({"resolution": 4} | wrong))
+
+
+@pytest.mark.parametrize("some", [slice(5, 12, 3), np.array([14, 0, 7])])
+@pytest.mark.parametrize(
+    "camera", [Orthographic([3, 5]), Perspective([3, 5], position=[1, 2, 5])]
+)
+def test_some_rays_are_those_of_all(camera, some):
+    for part, whole in zip(camera.rays(some), camera.rays(), strict=True):
+        np.testing.assert_array_equal(part, whole[some])
