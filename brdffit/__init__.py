@@ -24,6 +24,7 @@ The package reads from top to bottom; a module imports only from lines above its
     fit                    residual -> solver -> result
     exports                a BRDF as a material of a renderer, with its error
     plots                  one kind of figure per file
+    batch                  the same fits, many times: folders, textures, clusters
     cli                    the command line, one command per file
 
 Names are loaded when first used, so that ``import brdffit`` costs nothing.
@@ -36,6 +37,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
+    from brdffit.batch.folder import Batch as Batch, batch as batch
     from brdffit.cache import enable_compilation_cache as enable_compilation_cache
     from brdffit.databases import fetch as fetch
     from brdffit.effects import Plan as Plan, plan as plan
@@ -65,6 +67,7 @@ if TYPE_CHECKING:
 _HOME = {
     "MODELS": "models",
     "AbstractBRDF": "models",
+    "Batch": "batch.folder",
     "Comparison": "fit.select",
     "FitResult": "fit",
     "Goniometer": "scene",
@@ -73,6 +76,7 @@ _HOME = {
     "Plan": "effects",
     "Samples": "samples",
     "Scene": "scene",
+    "batch": "batch.folder",
     "bootstrap": "fit.bootstrap",
     "compare": "fit.select",
     "directional_albedo": "albedo",

@@ -50,3 +50,10 @@ def require_writable(folder: str | Path) -> None:
         except OSError as error:
             reason = f"`{existing}` takes no new files ({error.strerror or error})"
     raise OSError(f"Folder `{folder}` cannot be written: {reason}.")
+
+
+def sentence(error: Exception) -> str:
+    """What an error says; one of the operating system names its file and the reason."""
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"File `{error.filename}` cannot be used: {error.strerror}."
+    return str(error)

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 from cyclopts import App, CycloptsError, Parameter
 
+from brdffit.cli.batch import batch
 from brdffit.cli.compare import compare
 from brdffit.cli.convert import convert
 from brdffit.cli.demo import demo
@@ -23,6 +24,7 @@ from brdffit.cli.models import models
 from brdffit.cli.plan import plan
 from brdffit.cli.render import render
 from brdffit.cli.simulate import simulate
+from brdffit.files import sentence
 
 DONE, NOT_CONVERGED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
@@ -46,6 +48,7 @@ COMMANDS = (
     info,
     fit,
     compare,
+    batch,
     simulate,
     plan,
     render,
@@ -76,10 +79,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     except (CycloptsError, ValueError, OSError) as error:
-        _say(_sentence(error))
+        _say(sentence(error))
         return BAD_INPUT
-    except KeyboardInterrupt:
-        _say("Interrupted.")
+    except KeyboardInterrupt as stop:
+        _say(str(stop) or "Interrupted.")
         return INTERRUPTED
 
 
@@ -94,13 +97,6 @@ def _run(arguments: Sequence[str] | None) -> int:
     return status or DONE
 
 
-def _sentence(error: Exception) -> object:
-    """The sentence of an error; those of the operating system get one here."""
-    if isinstance(error, OSError) and error.filename is not None:
-        return f"File `{error.filename}` cannot be used: {error.strerror}."
-    return error
-
-
-def _say(sentence: object, *_: object) -> None:
+def _say(words: object, *_: object) -> None:
     """One line on standard error."""
-    print(f"brdffit: {' '.join(str(sentence).split())}", file=sys.stderr)  # noqa: T201
+    print(f"brdffit: {' '.join(str(words).split())}", file=sys.stderr)  # noqa: T201

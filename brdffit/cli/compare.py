@@ -4,10 +4,16 @@ from pathlib import Path
 
 import brdffit
 from brdffit.cli import console
-from brdffit.cli.options import Channels, Illuminant, Json, Out, Share, words
+from brdffit.cli.options import (
+    Channels,
+    Illuminant,
+    Json,
+    Out,
+    Share,
+    chosen_models,
+)
 
 MODELS = "lambert,oren_nayar,phong,blinn_phong,cook_torrance,beckmann,ggx"
-ALL = "all"
 PICTURES = 5  # steps of drawing
 
 
@@ -47,7 +53,7 @@ def compare(
     from brdffit.names import look_up
     from brdffit.scene.values import whole
 
-    names = list(brdffit.MODELS) if models == ALL else words(models)
+    names = chosen_models(models)
     for name in names:
         from_name(name)
     if not names:

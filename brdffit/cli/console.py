@@ -4,10 +4,13 @@ import contextlib
 import json
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from datetime import timedelta
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
+
+from brdffit.batch.tally import Tally
 
 WIDE = 200  # columns when the output is not a terminal
 
@@ -99,3 +102,54 @@ def transfer(name: str) -> Iterator[Callable[[int, int | None], None]]:
     task = bar.add_task(name, total=None)
     with bar:
         yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+@contextlib.contextmanager
+def tally_bar() -> Iterator[Callable[[Tally], None]]:
+    """A bar of the texels or fits of a long run on a terminal, nothing elsewhere.
+
+    It shows the share done, the rate and the time left of this run, in which what an
+    earlier run finished does not count, and how many did not converge.
+
+    Yields:
+        A function to call with the counts of the run.
+    """
+    from rich import progress as rich
+
+    bar = rich.Progress(
+        rich.SpinnerColumn(),
+        rich.TextColumn("{task.description}", markup=False),
+        rich.BarColumn(),
+        rich.TaskProgressColumn(),
+        rich.TextColumn("{task.fields[pace]}", markup=False),
+        console=Console(stderr=True),
+        transient=True,
+        disable=not sys.stderr.isatty(),
+    )
+    task = bar.add_task("starting", total=None, pace="")
+
+    def show(tally: Tally) -> None:
+        finished = tally.kept + tally.done
+        bar.update(
+            task,
+            description=f"{finished:,} of {tally.total:,} {tally.unit}",
+            completed=finished,
+            total=tally.total,
+            pace=pace(tally),
+        )
+
+    with bar:
+        yield show
+
+
+def pace(tally: Tally) -> str:
+    """Rate, time left and failures of a run, in few words."""
+    parts = []
+    if tally.remaining is not None:
+        left = timedelta(seconds=round(tally.remaining))
+        parts += [f"{tally.rate:,.3g}/s", f"{left} left"]
+    if tally.not_converged:
+        parts.append(f"{tally.not_converged:,} not converged")
+    if tally.failed:
+        parts.append(f"{tally.failed:,} failed")
+    return ", ".join(parts)

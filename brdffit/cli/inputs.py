@@ -17,11 +17,9 @@ from brdffit.models.base import RGB
 from brdffit.names import look_up
 from brdffit.parameters import check, registry_name, replace, spectral_fields
 from brdffit.readers import load
-from brdffit.samples import Measurement, Samples, pick_channels
+from brdffit.samples import Measurement, Samples
 from brdffit.scene import Scene, lit_sphere, load_scene
 from brdffit.scene.values import whole
-from brdffit.spectrum import to_rgb
-from brdffit.subset import subset
 
 FIRST_LIGHT = (-0.48, 0.6, 0.64)  # upper left
 
@@ -45,12 +43,8 @@ def read_data(
         ValueError: The content is wrong, or there is no such channel.
         OSError: The file cannot be read.
     """
-    data = load(path)
-    if illuminant:
-        data = to_rgb(data, illuminant)
-    if channels:
-        data = pick_channels(data, words(channels))
-    return data if samples is None else subset(data, samples)
+    picked = words(channels or "")
+    return load(path, channels=picked, illuminant=illuminant, samples=samples)
 
 
 def saved_or_named(

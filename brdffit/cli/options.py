@@ -6,6 +6,10 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+import brdffit
+
+ALL = "all"
+
 Json = Annotated[
     bool, Parameter("--json", help="Print the outcome as JSON instead of tables.")
 ]
@@ -51,6 +55,20 @@ Resolution = Annotated[
     Parameter("--resolution", help="Rows and columns of the default sphere. [256]"),
 ]
 
+Resume = Annotated[
+    bool,
+    Parameter(
+        "--resume",
+        help="Go on with an earlier run in that folder, and keep what is finished.",
+    ),
+]
+Cluster = Annotated[
+    str | None,
+    Parameter(
+        "--cluster",
+        help="Address of a Dask scheduler, as in tcp://host:8786. [threads here]",
+    ),
+]
 Tolerance = Annotated[
     float | None,
     Parameter("--tolerance", help="Relative error that effects may leave. [0.001]"),
@@ -73,6 +91,11 @@ Within = Annotated[
         "[given]",
     ),
 ]
+
+
+def chosen_models(text: str) -> list[str]:
+    """Names between commas, or those of the whole catalogue for ``all``."""
+    return list(brdffit.MODELS) if text == ALL else words(text)
 
 
 def words(text: str) -> list[str]:

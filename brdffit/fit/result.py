@@ -125,7 +125,7 @@ class FitResult:
         """Everything but the model object, in types that JSON knows."""
         fields = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         del fields["brdf"]
-        return {name: _plain(value) for name, value in fields.items()}
+        return {name: plain(value) for name, value in fields.items()}
 
     def save(self, path: str | os.PathLike) -> None:
         """Write the result as JSON, which `load_result` reads back."""
@@ -163,15 +163,16 @@ def load_result(path: str | os.PathLike) -> FitResult:
         ) from error
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
+    """The same value in types that JSON knows; what is not finite as a word."""
     if isinstance(value, dict):
-        return {name: _plain(v) for name, v in value.items()}
+        return {name: plain(v) for name, v in value.items()}
     if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
+        return plain(value.tolist())
     if isinstance(value, list | tuple):
-        return [_plain(v) for v in value]
+        return [plain(v) for v in value]
     if isinstance(value, np.generic):
-        return _plain(value.item())
+        return plain(value.item())
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)  # JSON has no infinity
     return value

@@ -20,3 +20,4 @@ from brdffit.plots.spheres import (
     spheres_figure as spheres_figure,
 )
 from brdffit.plots.style import save as save
+from brdffit.plots.thumbnail import thumbnail_figure as thumbnail_figure

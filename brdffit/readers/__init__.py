@@ -10,6 +10,7 @@ To add a format, write ``readers/<name>.py`` with
 and add its line below. The content decides, never the name of a file.
 """
 
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
@@ -28,7 +29,9 @@ from brdffit.readers import (
     utia,
     zemax,
 )
-from brdffit.samples import Measurement, Samples
+from brdffit.samples import Measurement, Samples, pick_channels
+from brdffit.spectrum import to_rgb
+from brdffit.subset import subset
 
 HEAD = 65536  # bytes that a reader may look at to know its format
 
@@ -50,14 +53,33 @@ READERS: dict[str, ModuleType] = {
 }
 
 
-def load(path: Path | str) -> Measurement | Samples:
+def load(
+    path: Path | str,
+    *,
+    channels: Sequence[str] = (),
+    illuminant: str | None = None,
+    samples: int | None = None,
+) -> Measurement | Samples:
     """Read a measurement; the content of the file or folder decides its format.
 
+    Args:
+        path: File or folder.
+        channels: Names of the channels to use; all by default.
+        illuminant: Light under which spectral data become RGB, before channels are
+            picked; see `to_rgb`.
+        samples: Number of samples of a share that stands for all; see `subset`.
+
     Raises:
-        ValueError: The content is of no known format, or is wrong.
+        ValueError: The content is of no known format, or is wrong, or has no such
+            channel.
         OSError: The file cannot be read.
     """
-    return READERS[format_of(path)].load(path)
+    data = READERS[format_of(path)].load(path)
+    if illuminant:
+        data = to_rgb(data, illuminant)
+    if channels:
+        data = pick_channels(data, channels)
+    return data if samples is None else subset(data, samples)
 
 
 def format_of(path: Path | str) -> str:
