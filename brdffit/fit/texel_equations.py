@@ -1,0 +1,147 @@
+r"""Normal equations of many small fits at once, one for each texel.
+
+They have the structure of those of a single fit (`structure`). Sums run over the
+observations, entry by entry: small matrices are never multiplied. Single precision
+loses nothing that matters, because costs and gradients are sums over residuals, never
+differences of large sums.
+"""
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float
+
+from brdffit.fit.quadratic import minimise_in_boxes
+from brdffit.fit.texel_basis import Observed, TexelProblem, compared, rows
+
+
+class Sums(eqx.Module):
+    """Sums over the observations of each channel, at one point.
+
+    Attributes:
+        linear: Values of the linear parameters.
+        free: Which of them are not on a bound.
+        cost: Half the sum of squares.
+        gradient: Its derivative in the linear and the moving parameters.
+        gram: Its second (Gauss-Newton) derivative.
+    """
+
+    linear: Float[Array, "q channel texel"]
+    free: Bool[Array, "q channel texel"]
+    cost: Float[Array, "channel texel"]
+    gradient: Float[Array, "p channel texel"]
+    gram: Float[Array, "p p channel texel"]
+
+
+def sums(problem: TexelProblem, seen: Observed, x: Array) -> Sums:
+    """Sums at a point ``x (n, texel)``, in solver coordinates.
+
+    Where the residual is affine the linear parameters are those that fit best within
+    their bounds; otherwise they are taken from ``x``, like the others.
+    """
+    basis, slopes = rows(problem, seen, x, derivatives=True)
+    if problem.residual.affine:
+        (basis, slopes), data = _weighted(seen, (basis, slopes))
+        linear, free = _projected(problem, basis, data)
+        error = _mixed(linear, basis) - data
+    else:
+        linear = x[problem.linear_places]
+        free = jnp.ones(linear.shape, bool)
+        value = _mixed(linear, basis) * seen.weight
+        reached, slope = compared(problem, seen.wo, value)
+        error = (reached - seen.target) * seen.scale
+        factor = slope * seen.scale * seen.weight
+        basis, slopes = jax.tree.map(lambda row: row * factor, (basis, slopes))
+    tangents = [_mixed(linear, slope) for slope in slopes]
+    basis, tangents, error = jax.lax.optimization_barrier((basis, tangents, error))
+    jacobian = [*basis[1:], *tangents]
+    return Sums(
+        linear=linear,
+        free=free,
+        cost=_sum(error, error) / 2,
+        gradient=_vector([_sum(column, error) for column in jacobian], like=error),
+        gram=_gram(jacobian, like=error),
+    )
+
+
+def best_linear(problem: TexelProblem, seen: Observed, x: Array) -> tuple[Array, Array]:
+    """Linear parameters ``(q, channel, texel)`` that fit the values best, and the cost.
+
+    For any residual, whose differences are taken to be small. ``x`` is ``(n, texel)``
+    or ``(n,)``.
+    """
+    basis, _ = rows(problem, seen, x, derivatives=False)
+    basis, data = _weighted(seen, basis)
+    linear, _ = _projected(problem, basis, data)
+    error = _mixed(linear, basis) - data
+    return linear, jnp.sum(_sum(error, error), axis=0) / 2
+
+
+def eliminated(gram: Array, gradient: Array, free: Array) -> tuple[Array, Array]:
+    """Gradient and second derivative after the linear parameters were solved.
+
+    Args:
+        gram: Second derivative ``(p, p, channel, texel)``, the linear ones first.
+        gradient: First derivative ``(p, channel, texel)``.
+        free: Which linear parameters ``(q, channel, texel)`` are not on a bound.
+    """
+    least = 8 * jnp.finfo(gram.dtype).eps
+    diagonal = gram
+    for k in range(len(free)):
+        solid = free[k] & (gram[k, k] > least * diagonal[k, k])
+        factor = jnp.where(solid, 1 / jnp.where(solid, gram[k, k], 1), 0)
+        gradient = gradient - gram[:, k] * (gradient[k] * factor)[None]
+        gram = gram - gram[:, None, k] * (gram[k] * factor[None])[None]
+    return gradient[len(free) :], gram[len(free) :, len(free) :]
+
+
+def _weighted(seen: Observed, basis):
+    """Rows and data times the weight of a difference, worked out before all sums."""
+    weight = seen.lean * seen.weight
+    weighted = jax.tree.map(lambda row: row * weight, basis)
+    return jax.lax.optimization_barrier((weighted, seen.lean * seen.value))
+
+
+def _projected(problem: TexelProblem, basis, data: Array) -> tuple[Array, Array]:
+    """Linear parameters that fit best within their bounds, and which are free."""
+    constant, *columns = basis
+    places = problem.linear_places
+    shape = (*places.shape, data.shape[-1])
+    slope = _vector([_sum(c, constant - data) for c in columns], like=data)
+    lower, upper = (
+        jnp.broadcast_to(bound[places][..., None], shape)
+        for bound in (problem.lower, problem.upper)
+    )
+    return minimise_in_boxes(_gram(columns, like=data), slope, lower, upper)
+
+
+def _mixed(linear: Array, basis) -> Array:
+    """``C + sum of a_j B_j (channel, observation, texel)``."""
+    mixture, *columns = basis
+    for value, column in zip(linear, columns, strict=True):
+        mixture = mixture + value[:, None] * column
+    return mixture
+
+
+def _sum(first: Array, second: Array) -> Array:
+    """Sum of products over the observations, ``(channel or 1, texel)``."""
+    return jnp.sum(first * second, axis=1)
+
+
+def _vector(entries: list[Array], like: Array) -> Array:
+    """Entries as one array, each of the size that the values ``like`` have."""
+    shape = like.shape[0], like.shape[2]
+    if not entries:
+        return jnp.zeros((0, *shape), like.dtype)
+    return jnp.stack([jnp.broadcast_to(entry, shape) for entry in entries])
+
+
+def _gram(columns: list[Array], like: Array) -> Array:
+    """Sums of products of all pairs of columns ``(p, p, channel, texel)``."""
+    if not columns:
+        return jnp.zeros((0, 0, like.shape[0], like.shape[2]), like.dtype)
+    places = range(len(columns))
+    pairs = [
+        [_sum(columns[min(i, j)], columns[max(i, j)]) for j in places] for i in places
+    ]
+    return jnp.stack([_vector(row, like) for row in pairs])

@@ -1,0 +1,196 @@
+r"""The solver of many small fits: a screen of starts, then Levenberg-Marquardt.
+
+Every texel takes its own steps with its own damping, and is left alone once it has
+converged, so that what is found for it does not depend on its neighbours.
+"""
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from brdffit.compiled import compiled
+from brdffit.fit.quadratic import minimise_in_boxes
+from brdffit.fit.solve import FIRST_DAMPING, LEAST_GAIN
+from brdffit.fit.start import typical_box
+from brdffit.fit.texel_basis import TexelBlock, TexelProblem, observed
+from brdffit.fit.texel_equations import Sums, best_linear, eliminated, sums
+
+RTOL = 1e-6  # relative decrease at which to stop; about a hundredth of an error bar
+
+
+class Progress(eqx.Module):
+    """How far the solver has come with each texel.
+
+    Attributes:
+        x: All parameters in solver coordinates.
+        damping: Levenberg-Marquardt parameter, relative to the diagonal.
+        growth: Factor by which the next refusal raises the damping.
+        converged: True where nothing that could be seen is left to gain.
+        steps: Points evaluated with derivatives.
+    """
+
+    x: Float[Array, "n texel"]
+    damping: Float[Array, " texel"]
+    growth: Float[Array, " texel"]
+    converged: Bool[Array, " texel"]
+    steps: Int[Array, " texel"]
+
+
+class Solved(eqx.Module):
+    """Progress, and what errors at the points reached need.
+
+    Attributes:
+        progress: Where each texel stands.
+        cost: Half the sum of squares.
+        count: Number of values used.
+        hessian: Second derivative of the cost in all parameters.
+    """
+
+    progress: Progress
+    cost: Float[Array, " texel"]
+    count: Float[Array, " texel"]
+    hessian: Float[Array, "n n texel"]
+
+
+class _State(eqx.Module):
+    """Progress, the sums there, and the step that will be tried next."""
+
+    progress: Progress
+    sums: Sums
+    cost: Float[Array, " texel"]
+    step: Float[Array, "solved texel"]
+    predicted: Float[Array, " texel"]
+
+
+def screen(problem: TexelProblem, block: TexelBlock, starts: Array) -> Progress:
+    """The best of all starts ``(start, n)`` for each texel, the linear ones solved."""
+    seen = observed(problem, block)
+    places, texels = problem.linear_places, block.value.shape[2]
+    low, high = (box[places][..., None] for box in typical_box(problem.layout))
+
+    def try_one(i, best):
+        x, least = best
+        start = starts[i]
+        linear, cost = best_linear(problem, seen, start)
+        if not problem.residual.affine:
+            # at a bound, such as a lobe of no height, others may have no effect
+            linear = jnp.clip(linear, low, high).astype(linear.dtype)
+        trial = jnp.broadcast_to(start[:, None], x.shape).at[places].set(linear)
+        return _where(cost < least, (trial, cost), best)
+
+    x = jnp.broadcast_to(starts[0][:, None], (starts.shape[1], texels))
+    least = jnp.full(texels, jnp.inf, x.dtype)
+    x, _ = jax.lax.fori_loop(0, len(starts), try_one, (x, least))
+    return Progress(
+        x=x,
+        damping=jnp.full_like(least, FIRST_DAMPING),
+        growth=jnp.full_like(least, 2),
+        converged=jnp.zeros(texels, bool),
+        steps=jnp.zeros(texels, jnp.int32),
+    )
+
+
+def refine(
+    problem: TexelProblem, block: TexelBlock, begin: Progress, most: int | Array
+) -> Solved:
+    """Up to ``most`` steps of each texel that has not converged."""
+    seen = observed(problem, block)
+    affine, places = problem.residual.affine, problem.solved_places
+    lower, upper = (b[places][:, None] for b in (problem.lower, problem.upper))
+    eps = 8 * jnp.finfo(seen.value.dtype).eps
+    floor = eps**2 * jnp.sum((seen.lean * seen.value) ** 2, axis=(0, 1))
+
+    def judge(state: _State, cost: Array):
+        """Whether the step was good, and the damping and its growth after it."""
+        old = state.progress
+        first, rounding = jnp.isinf(state.cost), eps * cost + floor
+        tiny = jnp.finfo(cost.dtype).tiny
+        gain = (state.cost - cost) / jnp.maximum(state.predicted, tiny)
+        # a step too small for the cost to show is judged by the gradient alone
+        unseen = (cost < state.cost + rounding) & (state.predicted < rounding)
+        good = (first | unseen | (gain > LEAST_GAIN)) & jnp.isfinite(cost)
+        trust = jnp.where(first | unseen, 0.5, jnp.clip(gain, 0, 1))
+        softer = old.damping * jnp.maximum(1 / 3, 1 - (2 * trust - 1) ** 3)
+        damping = jnp.where(good, softer, old.damping * old.growth)
+        return good, damping, jnp.where(good, 2, 2 * old.growth)
+
+    def propose(x: Array, found: Sums, damping: Array):
+        """The next step within the bounds, and the decrease it promises."""
+        gradient, hessian = _equations(problem, found)
+        eye = jnp.eye(len(places), dtype=x.dtype)[..., None]
+        damped = hessian + eye * hessian * damping[None, None]
+        step, _ = minimise_in_boxes(damped, gradient, lower - x, upper - x)
+        curvature = jnp.sum(hessian * step[None], axis=1)
+        return step, -jnp.sum(step * (gradient + curvature / 2), axis=0)
+
+    def advance(state: _State) -> _State:
+        """Evaluate the proposed point, take or refuse it, propose the next."""
+        old = state.progress
+        trial = jnp.clip(old.x[places] + state.step, lower, upper)
+        x = old.x.at[places].set(trial)
+        found = sums(problem, seen, x)
+        if affine:
+            x = x.at[problem.linear_places].set(found.linear)
+        cost = jnp.sum(found.cost, axis=0)
+        good, damping, growth = judge(state, cost)
+        now = x, found, cost
+        x, found, cost = _where(
+            good & ~old.converged, now, (old.x, state.sums, state.cost)
+        )
+        step, predicted = propose(x[places], found, damping)
+        small = predicted <= RTOL * cost + floor
+        new = Progress(x, damping, growth, small & jnp.isfinite(cost), old.steps + 1)
+        return _State(_where(old.converged, old, new), found, cost, step, predicted)
+
+    def unfinished(state):
+        taken, now = state
+        return (taken < most) & ~jnp.all(now.progress.converged)
+
+    texels = block.value.shape[2]
+    empty = jax.eval_shape(lambda: sums(problem, seen, begin.x))
+    state = _State(
+        progress=begin,
+        sums=jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), empty),
+        cost=jnp.full(texels, jnp.inf, begin.x.dtype),
+        step=jnp.zeros((len(places), texels), begin.x.dtype),
+        predicted=jnp.zeros(texels, begin.x.dtype),
+    )
+    _, end = jax.lax.while_loop(
+        unfinished, lambda state: (state[0] + 1, advance(state[1])), (0, state)
+    )
+    size = begin.x.shape[0]
+    _, hessian = _assembled(
+        end.sums.gradient, end.sums.gram, problem.local_places, size
+    )
+    return Solved(end.progress, end.cost, seen.count, hessian)
+
+
+def _equations(problem: TexelProblem, found: Sums) -> tuple[Array, Array]:
+    """Gradient and second derivative in what the solver moves."""
+    solved = {place: i for i, place in enumerate(problem.solved_places)}
+    gradient, gram, places = found.gradient, found.gram, problem.local_places
+    if problem.residual.affine:
+        gradient, gram = eliminated(gram, gradient, found.free)
+        places = places[len(found.free) :]
+    index = np.vectorize(solved.get, otypes=[int])(places)
+    return _assembled(gradient, gram, index, len(solved))
+
+
+def _assembled(gradient, gram, places, size: int) -> tuple[Array, Array]:
+    """Those of all channels ``(p, channel, texel)`` added where they belong."""
+    texels = gradient.shape[-1]
+    whole = jnp.zeros((size, texels), gradient.dtype).at[places].add(gradient)
+    matrix = jnp.zeros((size, size, texels), gram.dtype)
+    return whole, matrix.at[places[:, None], places[None]].add(gram)
+
+
+def _where(choose: Array, new, old):
+    """``new`` of the texels to choose, ``old`` of the others; texels come last."""
+    return jax.tree.map(
+        lambda n, o: jnp.where(choose.reshape(*[1] * (n.ndim - 1), -1), n, o), new, old
+    )
+
+
+screen_block, refine_block = compiled(screen), compiled(refine)
