@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from brdffit.catalogue import from_name
 from brdffit.fit.result import FitResult
-from brdffit.parameters import parameters
+from brdffit.parameters import Parameter, parameters
+from brdffit.per_channel import PerChannel
 
 LOST = "undetermined"
 DIGITS = 6  # most significant digits of a value
@@ -33,7 +33,7 @@ class Row(NamedTuple):
 
 def rows(result: FitResult) -> Iterator[Row]:
     """One row for each number of a fit, in the order of the correlation matrix."""
-    known = parameters(from_name(result.model))
+    known = known_parameters(result)
     labels = iter(result.labels)
     several = len(result.channels) > 1
     for name, value in result.parameters.items():
@@ -52,6 +52,12 @@ def rows(result: FitResult) -> Iterator[Row]:
             unit = known[name].unit
             bounds = f"[{known[name].lower:g}, {known[name].upper:g}]"
             yield Row(label, channel, float(number), error, unit, bounds, note)
+
+
+def known_parameters(result: FitResult) -> dict[str, Parameter]:
+    """What is declared of each parameter of a fit, by its name."""
+    brdf = result.brdf
+    return parameters(brdf.parts[0] if isinstance(brdf, PerChannel) else brdf)
 
 
 def rounded(value: float, error: float) -> tuple[str, str]:

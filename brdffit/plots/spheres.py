@@ -6,7 +6,7 @@ A measurement without pixels is shown as spheres rendered with the fitted models
 from collections.abc import Iterable, Mapping
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, UInt8
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
@@ -54,10 +54,15 @@ def spheres_figure(
 
 def plot_sphere(axes: Axes, image: Image, exposure: float = 1.0) -> None:
     """Show linear pixels as on a screen; pixels that are NaN stay empty."""
+    axes.imshow(on_screen(image, exposure), interpolation="antialiased")
+    axes.set_axis_off()
+
+
+def on_screen(image: Image, exposure: float) -> UInt8[np.ndarray, "row column 4"]:
+    """Linear pixels in sRGB with opacity, which is 0 where they are NaN."""
     seen = np.isfinite(image).any(axis=-1)
     shown = np.dstack([images.preview(image, exposure), np.where(seen, 255, 0)])
-    axes.imshow(shown.astype(np.uint8), interpolation="antialiased")
-    axes.set_axis_off()
+    return shown.astype(np.uint8)
 
 
 def plot_difference(
@@ -91,7 +96,7 @@ def _rendered(models: Mapping[str, AbstractBRDF]) -> Figure:
     )
     assert samples.pixels is not None  # for the type checker
     values = {n: np.asarray(compiled_shade(b, samples)) for n, b in models.items()}
-    exposure = _exposure(np.concatenate(list(values.values())))
+    exposure = exposure_of(np.concatenate(list(values.values())))
     figure = new_figure(0.4 + 2.3 * max(len(values), 2), 2.9)
     row = figure.subplots(1, len(values), squeeze=False)[0]
     for axes, (name, value) in zip(row, values.items(), strict=True):
@@ -115,7 +120,7 @@ def _differences(samples: Samples, models: Mapping[str, AbstractBRDF]) -> Figure
         used &= np.asarray(samples.mask)
     fitted = {n: np.asarray(compiled_shade(b, samples)) for n, b in models.items()}
     difference = {n: np.where(used, v - measured, np.nan) for n, v in fitted.items()}
-    limit = _limit(difference.values())
+    limit = limit_of(difference.values())
 
     rows, columns = 2 * len(frames), 1 + len(models)
     figure = new_figure(0.9 + 1.9 * columns, 0.5 + 2.0 * rows)
@@ -124,15 +129,15 @@ def _differences(samples: Samples, models: Mapping[str, AbstractBRDF]) -> Figure
     for number, frame in enumerate(frames):
         above, below = grid[2 * number], grid[2 * number + 1]
         here = (frame_of == frame)[:, None]
-        exposure = _exposure(measured[used & here])
-        plot_sphere(above[0], _image(samples, measured, frame), exposure)
+        exposure = exposure_of(measured[used & here])
+        plot_sphere(above[0], frame_image(samples, measured, frame), exposure)
         above[0].set_title("measured" + f", light {frame + 1}" * (len(frames) > 1))
         _explain(below[0], exposure, bool((~used).any()))
-        unused = _image(samples, (~used).astype(float), frame)
+        unused = frame_image(samples, (~used).astype(float), frame)
         for axes, under, name in zip(above[1:], below[1:], models, strict=True):
-            plot_sphere(axes, _image(samples, fitted[name], frame), exposure)
+            plot_sphere(axes, frame_image(samples, fitted[name], frame), exposure)
             axes.set_title(name)
-            error = _image(samples, difference[name], frame)
+            error = frame_image(samples, difference[name], frame)
             pictures.append(plot_difference(under, error, limit, unused))
     bar = figure.colorbar(pictures[0], ax=grid[:, -1], extend="both", shrink=0.7)
     bar.set_label("fitted - measured")
@@ -155,13 +160,13 @@ def _explain(axes: Axes, exposure: float, unused: bool) -> None:
     )
 
 
-def _limit(differences: Iterable[Values]) -> float:
+def limit_of(differences: Iterable[Values]) -> float:
     """End of the colour scale: that which suits the middle one of the models."""
     ends = [np.nanpercentile(np.abs(d.mean(axis=1)), LARGEST) for d in differences]
     return float(np.median(ends)) or 1.0
 
 
-def _image(samples: Samples, values: Values, frame: int) -> Image:
+def frame_image(samples: Samples, values: Values, frame: int) -> Image:
     """One frame, cut to the rows and columns that hold samples; NaN where none is."""
     assert samples.pixels is not None  # for the type checker
     where = samples.pixels
@@ -173,6 +178,6 @@ def _image(samples: Samples, values: Values, frame: int) -> Image:
     return canvas
 
 
-def _exposure(values: Float[np.ndarray, "..."]) -> float:
+def exposure_of(values: Float[np.ndarray, "..."]) -> float:
     """Factor that shows all but the brightest percent of the lit pixels unclipped."""
     return BRIGHT / float(np.percentile(values[values > 0], 99))
