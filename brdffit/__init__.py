@@ -24,6 +24,7 @@ The package reads from top to bottom; a module imports only from lines above its
     fit                    residual -> solver -> result
     exports                a BRDF as a material of a renderer, with its error
     plots                  one kind of figure per file
+    report                 a fit or a comparison as one HTML file
     batch                  the same fits, many times: folders, textures, clusters
     cli                    the command line, one command per file
 
@@ -56,6 +57,7 @@ if TYPE_CHECKING:
         simulate_image as simulate_image,
         simulate_measurement as simulate_measurement,
     )
+    from brdffit.report import report as report
     from brdffit.samples import Measurement as Measurement, Samples as Samples
     from brdffit.scene import (
         Goniometer as Goniometer,
@@ -92,6 +94,7 @@ _HOME = {
     "plan": "effects",
     "profile": "fit.profile",
     "render": "render",
+    "report": "report",
     "simulate_image": "render",
     "simulate_measurement": "render",
 }

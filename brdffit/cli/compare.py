@@ -9,6 +9,7 @@ from brdffit.cli.options import (
     Illuminant,
     Json,
     Out,
+    Report,
     Share,
     chosen_models,
 )
@@ -30,6 +31,7 @@ def compare(
     illuminant: Illuminant = None,
     samples: Share = None,
     out: Out = None,
+    report: Report = False,
     as_json: Json = False,
 ) -> int:
     """Fit many models to a measurement and rank them by their error on unseen data.
@@ -63,12 +65,12 @@ def compare(
         look_up(RESIDUALS, residual, "Residual")
     brdffit.enable_compilation_cache()
     with console.progress(
-        1 + len(names) + second_lobe + (PICTURES if out else 0)
+        1 + len(names) + second_lobe + (PICTURES if out else 0) + report
     ) as step:
         step(f"reading {data.name}")
         measurement = read_data(data, channels, illuminant, samples)
-        if out:
-            require_writable(out)
+        if out or report:
+            require_writable(out or Path())
         comparison = brdffit.compare(
             measurement,
             names,
@@ -89,6 +91,12 @@ def compare(
                 written.append(out / f"{name}.json")
                 result.save(written[-1])
             written += write_pictures(measurement, comparison, out, step)
+        if report:
+            from brdffit.cli.pictures import write_report
+
+            step("writing the report")
+            changed = bool(channels or illuminant)
+            written.append(write_report(comparison, measurement, data, out, changed))
     if as_json:
         console.print_json(comparison.to_dict() | {"files": [str(p) for p in written]})
     else:

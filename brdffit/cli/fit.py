@@ -7,7 +7,15 @@ from cyclopts import Parameter
 
 import brdffit
 from brdffit.cli import console
-from brdffit.cli.options import Channels, Illuminant, Json, Out, Share, assignments
+from brdffit.cli.options import (
+    Channels,
+    Illuminant,
+    Json,
+    Out,
+    Report,
+    Share,
+    assignments,
+)
 
 Words = Annotated[tuple[str, ...], Parameter(consume_multiple=True)]
 STEPS = 2  # reading and fitting
@@ -32,6 +40,7 @@ def fit(
     illuminant: Illuminant = None,
     samples: Share = None,
     out: Out = None,
+    report: Report = False,
     as_json: Json = False,
 ) -> int:
     """Fit a model to a measurement and say how sure its parameters are.
@@ -72,11 +81,11 @@ def fit(
         look_up(RESIDUALS, residual, "Residual")
     brdffit.enable_compilation_cache()
     more = (profile is not None) + (bootstrap is not None)
-    with console.progress(STEPS + more + (PICTURES if out else 0)) as step:
+    with console.progress(STEPS + more + (PICTURES if out else 0) + report) as step:
         step(f"reading {data.name}")
         measurement = read_data(data, channels, illuminant, samples)
-        if out:
-            require_writable(out)
+        if out or report:
+            require_writable(out or Path())
         step(f"fitting {model}")
         result = brdffit.fit(model, measurement, **options)
         found = {}
@@ -100,6 +109,12 @@ def fit(
                 from brdffit.plots import profile_figure, save
 
                 written += save(profile_figure(found["profile"]), out, "profile")
+        if report:
+            from brdffit.cli.pictures import write_report
+
+            step("writing the report")
+            changed = bool(channels or illuminant)
+            written.append(write_report(result, measurement, data, out, changed))
     if as_json:
         intervals = {name: each.to_dict() for name, each in found.items()}
         files = {"files": [str(path) for path in written]}

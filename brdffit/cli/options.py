@@ -16,6 +16,12 @@ Json = Annotated[
 Out = Annotated[
     Path | None, Parameter("--out", help="Folder for results and pictures.")
 ]
+Report = Annotated[
+    bool,
+    Parameter(
+        "--report", help="Also write report.html, one file, into --out or this folder."
+    ),
+]
 Channels = Annotated[
     str | None,
     Parameter("--channels", help="Names of the channels to use, as in R,G."),

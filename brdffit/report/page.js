@@ -50,6 +50,7 @@ function showSpheres() {
 /* Lobes: a chart in SVG, redrawn at every change. */
 
 const TALL = 340;
+const PAPER = 640; // width on paper
 const ROOM = { left: 58, right: 12, top: 10, bottom: 30 };
 const hiddenModels = new Set();
 
@@ -103,13 +104,13 @@ function rangeOf(values, measured, logarithmic) {
   return [0, 1.15 * Math.min(top, 1.6 * highest)];
 }
 
-function drawLobes() {
+function drawLobes(width = find("chart").clientWidth) {
   const { angle, curve, mirror, label, models } = plane();
   const measured = plane().measured[channel()];
   const logarithmic = find("logarithmic").checked;
   const shown = names.filter((name) => !hiddenModels.has(name));
   const [low, high] = rangeOf(shown.map((name) => models[name][channel()]), measured, logarithmic);
-  const wide = Math.max(find("chart").clientWidth, 260);
+  const wide = Math.max(width, 260);
   const x = (degrees) => ROOM.left + ((degrees + 90) / 180) * (wide - ROOM.left - ROOM.right);
   const share = (value) =>
     logarithmic ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
@@ -228,10 +229,11 @@ function prepareLobes() {
     find("legend").append(row);
   }
   for (const id of ["plane", "channel", "logarithmic"]) {
-    if (find(id)) find(id).addEventListener("change", drawLobes);
+    if (find(id)) find(id).addEventListener("change", () => drawLobes());
   }
   find("cursor").addEventListener("input", readLobes);
-  new ResizeObserver(drawLobes).observe(find("chart"));
+  new ResizeObserver(() => drawLobes()).observe(find("chart"));
+  window.addEventListener("beforeprint", () => drawLobes(PAPER));
 }
 
 if (lobes) prepareLobes();
