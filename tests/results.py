@@ -52,7 +52,7 @@ def result_of(brdf, residual="log", **changes):
         path="as it came",
         seconds=0.25,
         data="nothing",
-        channels=CHANNELS[brdf.channels],
+        channels=CHANNELS.get(brdf.channels, ()),
     )
     return dataclasses.replace(result, **changes)
 

@@ -16,7 +16,7 @@ from brdffit.report.formulas import as_html, printed
 MOST = 14  # parameters whose correlations are written out
 STRONG = 0.8  # correlation that a reader should know of
 PAIRS = 6  # strongest correlations that are told
-PALE = 0.75  # share of the colour scale that leaves black figures legible
+PALE = 0.56  # share of the colour scale that leaves black figures legible
 WORDS = {"at bound": "at its bound", LOST: "not determined", "held": "held"}
 
 

@@ -140,9 +140,9 @@ def page(
 
 
 def environment() -> Environment:
-    """Templates of this folder; every string is escaped."""
+    """The templates; every string that they are given is escaped."""
     templates = Environment(
-        loader=PackageLoader("brdffit.report", "."),
+        loader=PackageLoader("brdffit.report"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from brdffit.fit.select import Comparison
 from brdffit.report.formulas import printed
+from brdffit.report.verdict import free_numbers
 from brdffit.report.yardstick import Yardstick
 
 MANY = 100  # AICc beyond which tenths say nothing
@@ -41,7 +42,7 @@ def ranking(comparison: Comparison, yardstick: Yardstick) -> list[Ranked]:
             rms=printed(f"{entry.result.rms[comparison.residual]:#.3g}"),
             aicc=f"{above:,.{1 if above < MANY else 0}f}",
             ciede2000=f"{entry.colour.ciede2000:.2f}" if entry.colour else "",
-            free=len(entry.result.labels) - len(entry.result.held),
+            free=free_numbers(entry.result),
             agreement=f"{round(entry.result.agreement * entry.result.starts)} of "
             f"{entry.result.starts}",
             seconds=f"{entry.result.seconds:.1f}",

@@ -1,6 +1,7 @@
 """The verdict in words: which model explains the data, by how much, what to doubt."""
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from brdffit.fit import FitResult
@@ -12,6 +13,7 @@ FEW = 0.25  # share of starts below which another, better minimum may have been 
 MANY = 0.05  # share of values left out that a reader should know of
 SMALL = 0.05  # share that is missing from all, of which digits are told
 NAMED = 3  # most models that a headline names
+TENTHS = 9.95  # ratio of errors up to which tenths are told
 OVERWHELMING = 1000  # ratio of errors beyond which digits say nothing
 UNLIKELY = 1e-3  # probability of chi-square below which errors and model disagree
 
@@ -60,47 +62,40 @@ def verdict_on_comparison(
         yardstick: What makes a percentage of its errors.
         unit: What was held out, in the plural.
     """
-    best, *others = comparison.entries
-    model, error = best.result.model, yardstick.percent(best.held_out)
-    tied = [entry.result.model for entry in comparison.entries if entry.tied]
-    beaten = next((entry for entry in others if not entry.tied), None)
+    ranked = dict(zip(comparison.results, comparison.entries, strict=True))
+    (model, best), *others = ranked.items()
+    error = yardstick.percent(best.held_out)
+    tied = [model, *(name for name, entry in others if entry.tied)]
+    beaten = next(((n, entry) for n, entry in others if not entry.tied), None)
     sentences = [
-        f"On {comparison.held_out_count:,} {unit} that no fit had seen, it is off "
-        f"by {error} ({yardstick.meaning})."
+        f"On {comparison.held_out_count:,} {unit} that no fit had seen, `{model}` is "
+        f"off by {error} ({yardstick.meaning})."
     ]
     numbers = [("held-out error", error)]
+    headline = f"`{model}` {'fits best' if others else f'is off by {error}'}"
     if len(tied) > 1:
-        names = listed([f"`{name}`" for name in tied])
-        headline = f"{names if len(tied) <= NAMED else f'{len(tied)} models'} tie"
-        simplest = min(
-            (entry.result for entry in comparison.entries if entry.tied),
-            key=lambda result: len(result.labels),
-        )
-        sentences[0] = sentences[0].replace(" it is off", f" `{model}` is off")
+        named = listed([f"`{name}`" for name in tied])
+        headline = f"{named if len(tied) <= NAMED else f'{len(tied)} models'} tie"
+        sizes = {name: free_numbers(ranked[name].result) for name in tied}
+        simplest = min(sizes, key=lambda name: sizes[name])
         sentences.append(
             f"The others' errors differ from that by less than {TIE:g} standard "
             "errors of the difference, so these data do not tell them apart; "
-            f"`{simplest.model}` needs the fewest numbers, {len(simplest.labels)}."
+            f"`{simplest}` needs the fewest numbers, {sizes[simplest]}."
         )
         numbers.append(("models that tie", str(len(tied))))
-    elif others:
-        headline = f"`{model}` fits best"
-    else:
-        headline = f"`{model}` is off by {error}"
     if beaten is not None:
-        times = _times(beaten.held_out / best.held_out)
-        lead = yardstick.percent(beaten.held_out)
+        name, entry = beaten
+        lead = yardstick.percent(entry.held_out)
         behind = "The next model is" if len(tied) == 1 else "Clearly behind comes"
-        sentences.append(
-            f"{behind} `{beaten.result.model}`, off by {lead}: {times} as much."
-        )
-        numbers.append((f"next: {beaten.result.model}", lead))
-    results = [entry.result for entry in comparison.entries]
+        times = _times(entry.held_out, best.held_out)
+        sentences.append(f"{behind} `{name}`, off by {lead}: {times} as much.")
+        numbers.append((f"next: {name}", lead))
     return Verdict(
         headline,
         sentences,
-        doubts(best.result) + _unfinished(results[1:]),
-        [*numbers, *_effort(best.result, results)],
+        doubts(best.result) + _unfinished(comparison.results, model),
+        [*numbers, *_effort(best.result, list(comparison.results.values()))],
     )
 
 
@@ -144,13 +139,20 @@ def listed(words: list[str]) -> str:
     return ", ".join(words[:-1]) + " and " + words[-1] if len(words) > 1 else words[0]
 
 
-def _unfinished(results: list[FitResult]) -> list[str]:
-    names = [f"`{result.model}`" for result in results if not result.converged]
+def free_numbers(result: FitResult) -> int:
+    """How many numbers a fit was free to choose."""
+    return len(result.labels) - len(result.held)
+
+
+def _unfinished(results: Mapping[str, FitResult], best: str) -> list[str]:
+    """What to beware of in the others, of which ``best`` is none."""
+    names = [f"`{n}`" for n, r in results.items() if n != best and not r.converged]
     if not names:
         return []
+    fits = "fits" if len(names) > 1 else "fit"
     return [
-        f"The {'fits' if len(names) > 1 else 'fit'} of {listed(names)} did not "
-        "converge, so the ranking may do wrong to them."
+        f"The {fits} of {listed(names)} did not converge, so the ranking may do wrong "
+        "to them."
     ]
 
 
@@ -158,7 +160,7 @@ def _effort(result: FitResult, all_results: list[FitResult]) -> list[tuple[str, 
     agreeing = round(result.agreement * result.starts)
     seconds = sum(each.seconds for each in all_results)
     return [
-        ("free numbers", str(len(result.labels) - len(result.held))),
+        ("free numbers", str(free_numbers(result))),
         ("starts that agree", f"{agreeing} of {result.starts}"),
         ("time of the fits" if len(all_results) > 1 else "time", f"{seconds:.1f} s"),
     ]
@@ -171,7 +173,9 @@ def _share(share: float) -> str:
     return f"{100 * share:.{max(digits, 0)}f}\N{NO-BREAK SPACE}%"
 
 
-def _times(ratio: float) -> str:
+def _times(error: float, least: float) -> str:
+    """How many times as large an error is."""
+    ratio = error / least if least > 0 else math.inf
     if ratio > OVERWHELMING:
         return f"more than {OVERWHELMING:,} times"
-    return f"{ratio:.1f} times" if ratio < 9.95 else f"{ratio:.0f} times"
+    return f"{ratio:.1f} times" if ratio < TENTHS else f"{ratio:.0f} times"

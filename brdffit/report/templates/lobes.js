@@ -1,52 +1,3 @@
-"use strict";
-const find = (id) => document.getElementById(id);
-const read = (id) => JSON.parse(find(id).textContent);
-const spheres = read("spheres-data");
-const lobes = read("lobes-data");
-const names = Object.keys(spheres.frames[0].pictures).filter((name) => name !== "measured");
-const chosen = () => (find("model") ? find("model").value : names[0]);
-
-function showModel() {
-  for (const part of document.querySelectorAll("[data-model]")) {
-    part.hidden = part.dataset.model !== chosen();
-  }
-  showSpheres();
-  if (lobes) drawLobes();
-}
-
-/* Spheres: two pictures that share a place, and a line that tells which is seen. */
-
-function wipe() {
-  find("wipe").style.setProperty("--wipe", `${find("wiper").value}%`);
-}
-
-function showSpheres() {
-  const frame = spheres.frames[find("frame") ? find("frame").value : 0];
-  const right = chosen();
-  const asked = find("against") ? find("against").value : "";
-  const left = asked || spheres.against[right];
-  const words = (name) => (name === "measured" ? "Measured sphere." : `Sphere of ${name}.`);
-  const put = (id, name) => {
-    for (const each of [id, `${id}-still`]) {
-      const picture = find(each);
-      if (!picture) continue;
-      picture.src = frame.pictures[name];
-      picture.alt = words(name);
-      const caption = picture.closest("figure").querySelector("figcaption");
-      if (each !== id) caption.firstElementChild.textContent = name;
-    }
-    if (find(`${id}-name`)) find(`${id}-name`).textContent = name;
-  };
-  put("right", right);
-  if (!left) return;
-  put("left", left);
-  const reference = spheres.against[right];
-  find("difference").src = frame.differences[right];
-  find("difference").alt =
-    `Difference of the two spheres, ${right} minus ${reference}: blue where darker, red where brighter.`;
-  find("difference-name").textContent = `${right} \u2212 ${reference}`;
-}
-
 /* Lobes: a chart in SVG, redrawn at every change. */
 
 const TALL = 340;
@@ -235,11 +186,3 @@ function prepareLobes() {
   new ResizeObserver(() => drawLobes()).observe(find("chart"));
   window.addEventListener("beforeprint", () => drawLobes(PAPER));
 }
-
-if (lobes) prepareLobes();
-if (find("wiper")) find("wiper").addEventListener("input", wipe);
-for (const id of ["frame", "against"]) {
-  if (find(id)) find(id).addEventListener("change", showSpheres);
-}
-if (find("model")) find("model").addEventListener("change", showModel);
-showModel();
