@@ -5,7 +5,8 @@ The package reads from top to bottom; a module imports only from lines above its
     types, numerics        shapes; functions with finite gradients
     files, names           files whole or absent; names looked up once
     download               a download that goes on where it stopped
-    compiled, cache        compiler options; compiled programs, kept on disk
+    identity, executables  what a program depends on; whole programs, kept on disk
+    compiled, cache        compiler options; compiled programs for later processes
     geometry, parameters   directions; bounds, units and symbols
     half_difference        the grid of angles of MERL files
     microfacet             Fresnel, ndf, masking-shadowing

@@ -16,7 +16,6 @@ from typing import NamedTuple
 
 import numpy as np
 import OpenEXR
-import OpenImageIO
 from jaxtyping import Bool, UInt8
 
 from brdffit.files import replacing
@@ -174,10 +173,7 @@ def _channel_order(name: str) -> list[tuple[int, str]]:
 
 
 def _write_exr(path: Path, image: np.ndarray, channels: tuple[str, ...]) -> None:
-    header = {
-        "compression": OpenEXR.ZIP_COMPRESSION,
-        "type": OpenEXR.scanlineimage,
-    }
+    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
     planes = np.moveaxis(image, -1, 0)
     named = {n: np.ascontiguousarray(p) for n, p in zip(channels, planes, strict=True)}
     with replacing(path) as temporary:
@@ -190,6 +186,8 @@ def _write_exr(path: Path, image: np.ndarray, channels: tuple[str, ...]) -> None
 
 def _read_stored(path: Path) -> tuple[np.ndarray, tuple[str, ...]]:
     """Numbers as the file stores them, and channels; alpha is not multiplied in."""
+    import OpenImageIO  # slow to import, and not needed for EXR
+
     keep_alpha = OpenImageIO.ImageSpec()
     keep_alpha["oiio:UnassociatedAlpha"] = 1
     with silence():
@@ -219,6 +217,8 @@ def _refuse_bomb(path: Path, numbers: int) -> None:
 
 
 def _write_stored(path: Path, image: np.ndarray) -> None:
+    import OpenImageIO  # as above
+
     rows, columns, channels = image.shape
     spec = OpenImageIO.ImageSpec(columns, rows, channels, str(image.dtype))
     with replacing(path) as temporary:

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from brdffit.optics import rgb_weights
 from brdffit.samples import Measurement, Samples
 
 UNITS = {"nm": 1.0, "um": 1000.0}
@@ -49,6 +48,8 @@ def rgb_matrix(at: np.ndarray, illuminant: str = "D65") -> np.ndarray:
             f"RGB, but are {', '.join(f'{x:g}' for x in at[:6])}"
             f"{' and so on' if len(at) > 6 else ''}."
         )
+    from brdffit.optics import rgb_weights  # slow to import: it brings scipy
+
     grid, weights = rgb_weights(illuminant)
     to_grid = np.stack(
         [np.interp(1000 * grid, at, row) for row in np.eye(len(at))], axis=1

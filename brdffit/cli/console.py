@@ -6,17 +6,20 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import timedelta
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
+if TYPE_CHECKING:
+    from rich.console import Console
 
 from brdffit.batch.tally import Tally
 
 WIDE = 200  # columns when the output is not a terminal
 
 
-def output() -> Console:
+def output() -> "Console":
     """Standard output, for tables and sentences that are shown as they are."""
+    from rich.console import Console
+
     return Console(
         width=None if sys.stdout.isatty() else WIDE,
         markup=False,
@@ -53,7 +56,11 @@ def progress(total: int) -> Iterator[Callable[[str], None]]:
     Yields:
         A function to call before each step, with a word for what it does.
     """
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
     from rich import progress as rich
+    from rich.console import Console
 
     bar = rich.Progress(
         rich.SpinnerColumn(),
@@ -63,7 +70,6 @@ def progress(total: int) -> Iterator[Callable[[str], None]]:
         rich.TimeElapsedColumn(),
         console=Console(stderr=True),
         transient=True,
-        disable=not sys.stderr.isatty(),
     )
     task = bar.add_task("starting", total=total)
     begun = 0
@@ -87,7 +93,11 @@ def transfer(name: str) -> Iterator[Callable[[int, int | None], None]]:
     Yields:
         A function to call with the bytes that are there and the number of all.
     """
+    if not sys.stderr.isatty():
+        yield lambda *_: None
+        return
     from rich import progress as rich
+    from rich.console import Console
 
     bar = rich.Progress(
         rich.TextColumn("{task.description}", markup=False),
@@ -97,7 +107,6 @@ def transfer(name: str) -> Iterator[Callable[[int, int | None], None]]:
         rich.TimeRemainingColumn(),
         console=Console(stderr=True),
         transient=True,
-        disable=not sys.stderr.isatty(),
     )
     task = bar.add_task(name, total=None)
     with bar:

@@ -62,7 +62,6 @@ def fit(
     """
     from brdffit.catalogue import from_name
     from brdffit.cli.inputs import read_data
-    from brdffit.cli.printing import print_fit, print_intervals
     from brdffit.files import require_writable
     from brdffit.fit import RESIDUALS
     from brdffit.names import look_up
@@ -120,6 +119,8 @@ def fit(
         files = {"files": [str(path) for path in written]}
         console.print_json(result.to_dict() | intervals | files)
     else:
+        from brdffit.cli.printing import print_fit, print_intervals
+
         print_fit(result, written)
         print_intervals(**found)
     return 0 if result.converged else 1

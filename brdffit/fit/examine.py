@@ -16,7 +16,7 @@ from brdffit.fit.costs import costs
 from brdffit.fit.residual import RESIDUALS
 from brdffit.fit.robust import inflation
 from brdffit.fit.search import Search
-from brdffit.fit.solve import CONVERGED, sentence
+from brdffit.fit.status import CONVERGED, sentence
 from brdffit.fit.transforms import Layout, to_natural
 from brdffit.fit.uncertainty import uncertainty
 

@@ -3,12 +3,11 @@
 import time
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any, Optional
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-import optimistix as optx
 
 from brdffit.catalogue import from_name
 from brdffit.fit.basis import Problem
@@ -41,6 +40,9 @@ from brdffit.names import look_up
 from brdffit.parameters import check, registry_name
 from brdffit.samples import Measurement, Samples, as_samples
 
+if TYPE_CHECKING:
+    import optimistix
+
 MAX_STEPS = 200
 ROUNDS = 2  # of finding the noise and fitting again, where a fit must know it
 
@@ -57,7 +59,7 @@ def fit(
     per_channel: Sequence[str] = (),
     priors: Mapping[str, Prior] | None = None,
     precision: str = "float64",
-    solver: optx.AbstractLeastSquaresSolver | None = None,
+    solver: Optional["optimistix.AbstractLeastSquaresSolver"] = None,
     max_steps: int = MAX_STEPS,
 ) -> FitResult:
     """Fit the parameters of a model to measured or simulated reflectance.
@@ -233,7 +235,9 @@ def _fitted(
 
 
 def _path(
-    problem: Problem, precision: str, solver: optx.AbstractLeastSquaresSolver | None
+    problem: Problem,
+    precision: str,
+    solver: Optional["optimistix.AbstractLeastSquaresSolver"],
 ) -> str:
     layout = problem.layout
     if solver is not None:

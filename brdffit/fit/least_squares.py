@@ -12,12 +12,8 @@ from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, PyTree
 
 from brdffit.compiled import compiled
-from brdffit.fit.solve import (
-    CONVERGED,
-    BoundedLevenbergMarquardt,
-    outcome_of,
-    sentence,
-)
+from brdffit.fit.solve import BoundedLevenbergMarquardt, outcome_of
+from brdffit.fit.status import CONVERGED, sentence
 from brdffit.fit.structure import NormalEquations
 from brdffit.fit.uncertainty import uncertainty
 

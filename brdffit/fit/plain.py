@@ -6,22 +6,24 @@ interval keeps the bounds.
 """
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-import optimistix as optx
 from jaxtyping import Array
 
 from brdffit.compiled import compiled
 from brdffit.fit.basis import Problem
 from brdffit.fit.residual import Residual
 from brdffit.fit.search import Minima, Search, outcome
-from brdffit.fit.solve import outcome_of
 from brdffit.fit.transforms import Layout, to_natural, unpack
 from brdffit.models import AbstractBRDF
 from brdffit.render.shading import shade
 from brdffit.samples import Samples
+
+if TYPE_CHECKING:
+    import optimistix
 
 
 def residual_vector(
@@ -62,7 +64,7 @@ def search_plainly(
     residuals: Callable[[Array], Array],
     exact: Problem,
     starts: np.ndarray,
-    solver: optx.AbstractLeastSquaresSolver,
+    solver: "optimistix.AbstractLeastSquaresSolver",
     max_steps: int,
 ) -> Search:
     """Solve from all starts with a solver of optimistix and return the best minimum.
@@ -74,6 +76,10 @@ def search_plainly(
         solver: What solves it.
         max_steps: Steps after which a start gives up.
     """
+    import optimistix as optx  # slow to import, and seldom needed
+
+    from brdffit.fit.solve import outcome_of
+
     lower, upper = np.asarray(exact.lower), np.asarray(exact.upper)
     free = np.flatnonzero(upper > lower)
     width = (upper - lower)[free]

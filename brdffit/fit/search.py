@@ -7,15 +7,14 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-import optimistix as optx
 from jaxtyping import Bool, Float, Int
 
 from brdffit.compiled import compiled
 from brdffit.fit import structure
 from brdffit.fit.basis import Problem
 from brdffit.fit.blocks import AHEAD, blocks
-from brdffit.fit.solve import CONVERGED, BoundedLevenbergMarquardt, outcome_of
 from brdffit.fit.start import typical_box
+from brdffit.fit.status import CONVERGED
 from brdffit.samples import Samples
 from brdffit.types import AnyArray
 
@@ -159,6 +158,11 @@ def _solve(
     within their typical range: at a bound, such as a lobe of no height, the others may
     have no effect to begin with.
     """
+    # imported late: a program that is kept on disk is never traced again
+    import optimistix as optx
+
+    from brdffit.fit.solve import BoundedLevenbergMarquardt, outcome_of
+
     nonlinear, layout = problem.nonlinear_places, problem.layout
     linear_places = layout.channel_places(layout.linear)
     low, high = (box[linear_places] for box in typical_box(layout))

@@ -24,27 +24,16 @@ BLIND_STEPS = 10  # steps judged by the gradient alone, after which to stop
 LEAST_GAIN = 1e-4  # share of the predicted decrease that makes a step worth taking
 
 
-STATUS = (
-    (optx.RESULTS.successful, "converged"),
-    (
-        optx.RESULTS.nonlinear_max_steps_reached,
-        "stopped at the largest number of steps before it converged",
-    ),
-    (optx.RESULTS.nonfinite, "stopped at a value that is not finite"),
+RESULTS = (  # in the order of `status.STATUS`
+    optx.RESULTS.successful,
+    optx.RESULTS.nonlinear_max_steps_reached,
+    optx.RESULTS.nonfinite,
 )
 
 
-CONVERGED = 0  # place of success in `STATUS`
-
-
 def outcome_of(result: optx.RESULTS) -> Int[Array, ""]:
-    """Place of an outcome in `STATUS`."""
-    return jnp.argmax(jnp.stack([jnp.asarray(result == known) for known, _ in STATUS]))
-
-
-def sentence(outcome: int, steps: int) -> str:
-    """An outcome in words, without the full stop."""
-    return f"The fit {STATUS[outcome][1]} after {steps} steps"
+    """Place of an outcome in `status.STATUS`."""
+    return jnp.argmax(jnp.stack([jnp.asarray(result == known) for known in RESULTS]))
 
 
 class State(eqx.Module):

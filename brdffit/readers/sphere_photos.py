@@ -29,7 +29,6 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-import scipy.io
 
 from brdffit import images
 from brdffit.readers import text, validity
@@ -128,6 +127,8 @@ def read_normals(folder: Path, seen: np.ndarray) -> np.ndarray:
     file = folder / f"{NORMALS}.mat"
     if not file.is_file():
         return normals_of_disc(folder, seen)
+    import scipy.io  # slow to import, and seldom needed
+
     try:
         shapes = {name: shape for name, shape, _ in scipy.io.whosmat(file)}
         fits = shapes.get(NORMALS) == (*seen.shape, 3)
