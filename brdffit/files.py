@@ -1,10 +1,16 @@
-"""Files are whole or absent: written under a temporary name, then renamed."""
+"""Files are whole or absent when written, and hold what they claim when read.
+
+They are written under a temporary name, then renamed.
+"""
 
 import contextlib
 import os
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+
+SMALL = 50_000_000  # bytes of pixels that any file may unpack to
+MOST_PACKED = 50  # bytes of pixels for each byte of a larger file
 
 
 @contextlib.contextmanager
@@ -57,3 +63,25 @@ def sentence(error: Exception) -> str:
     if isinstance(error, OSError) and error.filename is not None:
         return f"File `{error.filename}` cannot be used: {error.strerror}."
     return str(error)
+
+
+def refuse_bomb(path: Path, numbers: int, small: int = SMALL) -> None:
+    """Refuse a large image that its header makes, not its content.
+
+    Pixels of photographs and renders pack to a tenth, not to a hundredth.
+
+    Args:
+        path: The file, or a folder of them.
+        numbers: How many numbers of four bytes it is said to hold.
+        small: Bytes that are let through whatever the file holds.
+
+    Raises:
+        ValueError: They are more than 50 times what is in the file.
+    """
+    files = path.iterdir() if path.is_dir() else [path]
+    size = sum(file.stat().st_size for file in files if file.is_file())
+    if 4 * numbers > max(small, MOST_PACKED * size):
+        raise ValueError(
+            f"`{path}` claims {numbers} numbers, {4 * numbers // max(size, 1)} times "
+            "what is in it; it is damaged or empty of content."
+        )

@@ -18,14 +18,12 @@ import numpy as np
 import OpenEXR
 from jaxtyping import Bool, UInt8
 
-from brdffit.files import replacing
+from brdffit.files import refuse_bomb, replacing
 from brdffit.types import Image
 
 RGB = ("R", "G", "B")
 INTEGER = (".png", ".tif", ".tiff")
 SUFFIXES = (".exr", ".hdr", *INTEGER)
-SMALL = 50_000_000  # bytes of pixels that any file may unpack to
-MOST_PACKED = 50  # bytes of pixels for each byte of a larger file
 EIGHT_BITS = "has 8 bits a channel, too few: save it as linear EXR, 16-bit PNG or TIFF."
 
 
@@ -150,7 +148,7 @@ def _read_exr(path: Path) -> Picture:
         count = len(header["channels"])
     except (RuntimeError, ValueError, TypeError, KeyError) as error:
         raise OSError(f"Image `{path}` is not a complete EXR file.") from error
-    _refuse_bomb(path, rows * columns * count)
+    refuse_bomb(path, rows * columns * count)
     try:
         with silence():
             planes = OpenEXR.File(str(path), separate_channels=True).channels()
@@ -194,26 +192,13 @@ def _read_stored(path: Path) -> tuple[np.ndarray, tuple[str, ...]]:
         source = OpenImageIO.ImageInput.open(str(path), keep_alpha)
         if source:
             spec = source.spec()
-            _refuse_bomb(path, spec.width * spec.height * spec.nchannels)
+            refuse_bomb(path, spec.width * spec.height * spec.nchannels)
         pixels = source.read_image(str(source.spec().format)) if source else None
         OpenImageIO.geterror()  # forget it, or it is printed at exit
     if source is None or pixels is None:
         kind = path.suffix[1:].upper()
         raise OSError(f"Image `{path}` is not a complete {kind} file.")
     return pixels, tuple(source.spec().channelnames)
-
-
-def _refuse_bomb(path: Path, numbers: int) -> None:
-    """Refuse a large image that its header makes, not its content.
-
-    Pixels of photographs and renders pack to a tenth, not to a hundredth.
-    """
-    size = path.stat().st_size
-    if 4 * numbers > max(SMALL, MOST_PACKED * size):
-        raise ValueError(
-            f"Image `{path}` claims {numbers} numbers, {4 * numbers // size} times "
-            "what the file holds; it is damaged or empty of content."
-        )
 
 
 def _write_stored(path: Path, image: np.ndarray) -> None:
@@ -245,7 +230,7 @@ def as_float32(pixels: np.ndarray) -> Image:
 def existing(path: str | Path) -> Path:
     """The path of an image that is there and not empty."""
     path = Path(path)
-    if not path.is_file():
+    if not os.path.isfile(path):  # also where the name itself cannot be
         raise FileNotFoundError(f"Image `{path}` does not exist.")
     if path.stat().st_size == 0:
         raise OSError(f"Image `{path}` is empty.")

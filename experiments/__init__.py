@@ -13,6 +13,7 @@
     merl_ranking       which models fit stand-ins for MERL materials best, and how fast?
     curet_matte        how much does a rough model gain over Lambert's on matte samples?
     ptfe               which model describes a white standard better than Lambert's?
+    hostile_input      does a damaged or lying file bring a reader down?
     ball_gloss         how many lobes does the gloss of a photographed ball take?
 
 Beside the experiments stand what some of them share: `record` writes results,

@@ -9,7 +9,7 @@ from brdffit import images
 from brdffit.readers import load, table
 from brdffit.render import description
 from brdffit.scene import load_scene
-from brdffit.scene.files import load_toml
+from brdffit.scene.sidecar import load_toml
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "data_synthetic"

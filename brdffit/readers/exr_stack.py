@@ -5,6 +5,7 @@ differ. The frame of a sample is the index of its image in the order of their na
 """
 
 import dataclasses
+import os
 from pathlib import Path
 
 from brdffit.readers import sphere_exr
@@ -47,4 +48,4 @@ def load(path: Path | str) -> Samples:
 def frames_of(folder: Path) -> list[Path]:
     """EXR files with a scene beside them, by name."""
     images = (file for file in folder.iterdir() if file.suffix.lower() == ".exr")
-    return sorted(file for file in images if file.with_suffix(".toml").is_file())
+    return sorted(f for f in images if os.path.lexists(f.with_suffix(".toml")))

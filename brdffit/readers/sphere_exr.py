@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from brdffit import images
+from brdffit.files import refuse_bomb
 from brdffit.readers import validity
 from brdffit.render import trace
 from brdffit.samples import Samples
@@ -47,6 +48,7 @@ def load(path: Path | str) -> Samples:
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Image .* pixels that are not finite")
         pixels, channels = images.read(path)
+    refuse_bomb(path, pixels.size, validity.SMALL)
     if pixels.shape[:2] != scene.camera.shape:
         raise ValueError(
             f"Image `{path}` has {pixels.shape[0]} x {pixels.shape[1]} pixels, but the "

@@ -25,12 +25,18 @@ those in attached shadow, whose weight is 0.
 """
 
 import dataclasses
+import itertools
+import os
+import struct
 import warnings
+import zlib
 from pathlib import Path
 
 import numpy as np
 
 from brdffit import images
+from brdffit.files import refuse_bomb
+from brdffit.images import RGB
 from brdffit.readers import text, validity
 from brdffit.render import local_samples
 from brdffit.samples import Pixels, Samples, join
@@ -44,6 +50,8 @@ DIRECTIONS = "light_directions.txt"
 INTENSITIES = "light_intensities.txt"
 NORMALS = "Normal_gt"
 RADIANCE = float(1 / np.pi)  # of the pixel value 1, as said above
+MATLAB_HEADER, PACKED = 128, 15  # bytes; what a packed array begins with
+SLACK = 1_000_000  # bytes of a MATLAB file beside the normals
 NO_PHOTOGRAPHS = ("mask", "normal")  # how names of other images in the folder begin
 
 
@@ -63,6 +71,8 @@ def load(path: Path | str) -> Samples:
     photographs = list_photographs(folder)
     lights = read_lights(folder, len(photographs))
     seen = images.read_mask(folder / "mask.png")
+    numbers = int(seen.sum()) * len(RGB) * len(photographs)
+    refuse_bomb(folder, numbers, validity.SMALL)
     normal = read_normals(folder, seen)
     frames = [
         read_frame(photograph, light, seen, normal)
@@ -76,12 +86,16 @@ def load(path: Path | str) -> Samples:
 def list_photographs(folder: Path) -> list[Path]:
     """The photographs, in the order of ``filenames.txt`` or of their names."""
     listing = folder / "filenames.txt"
-    if listing.is_file():
-        rows = list(text.lines(listing))
-        for row in rows:
-            if row.text != Path(row.text).name:
-                raise row.error("it must be the name of a file in the same folder.")
-        found = [folder / row.text for row in rows]
+    if os.path.lexists(listing):
+        left = {file.name for file in folder.iterdir()}
+        found = []
+        for row in text.lines(listing):
+            if row.text not in left:
+                raise row.error(
+                    "it must be the name of a file in the same folder, named once."
+                )
+            left.remove(row.text)
+            found.append(folder / row.text)
     else:
         found = sorted(
             file
@@ -99,15 +113,9 @@ def list_photographs(folder: Path) -> list[Path]:
 
 def read_lights(folder: Path, count: int) -> list[Directional]:
     """The light of each photograph."""
-    directions = list(text.lines(folder / DIRECTIONS))
+    directions = read_list(folder / DIRECTIONS, count)
     listing = folder / INTENSITIES
-    intensities = list(text.lines(listing)) if listing.is_file() else None
-    for name, rows in ((DIRECTIONS, directions), (INTENSITIES, intensities)):
-        if rows is not None and len(rows) != count:
-            raise ValueError(
-                f"Folder `{folder}` holds {count} photographs, but {name} has "
-                f"{len(rows)} lines."
-            )
+    intensities = read_list(listing, count) if os.path.lexists(listing) else None
     lights = []
     for index, row in enumerate(directions):
         brightness = intensities[index].numbers() if intensities else 1.0
@@ -120,16 +128,29 @@ def read_lights(folder: Path, count: int) -> list[Directional]:
     return lights
 
 
+def read_list(file: Path, count: int) -> list[text.Line]:
+    """The lines of a file that has one for each photograph."""
+    rows = list(itertools.islice(text.lines(file), count + 1))
+    if len(rows) != count:
+        found = f"{len(rows)}" if len(rows) < count else "more"
+        raise ValueError(
+            f"Folder `{file.parent}` holds {count} photographs, but {file.name} has "
+            f"{found} lines."
+        )
+    return rows
+
+
 def read_normals(folder: Path, seen: np.ndarray) -> np.ndarray:
     """Unit normals ``(N, 3)`` of the pixels in the mask."""
     if not seen.any():
         raise ValueError(f"The mask of folder `{folder}` is empty.")
     file = folder / f"{NORMALS}.mat"
-    if not file.is_file():
+    if not os.path.lexists(file):
         return normals_of_disc(folder, seen)
     import scipy.io  # slow to import, and seldom needed
 
     try:
+        refuse_packed(file, seen.size)
         shapes = {name: shape for name, shape, _ in scipy.io.whosmat(file)}
         fits = shapes.get(NORMALS) == (*seen.shape, 3)
         array = (
@@ -137,7 +158,7 @@ def read_normals(folder: Path, seen: np.ndarray) -> np.ndarray:
         )
     except Exception as error:  # scipy raises nearly every kind on a damaged file
         raise OSError(f"`{file}` is no complete MATLAB file.") from error
-    if array is None:
+    if array is None or array.dtype.kind not in "fiu":
         raise ValueError(
             f"`{file}` must hold an array `{NORMALS}` as large as the mask, with three "
             f"numbers for each pixel."
@@ -146,6 +167,24 @@ def read_normals(folder: Path, seen: np.ndarray) -> np.ndarray:
     if not np.allclose(np.linalg.norm(normal, axis=1), 1, atol=1e-2):
         raise ValueError(f"Normals in `{file}` must be unit vectors within the mask.")
     return normal
+
+
+def refuse_packed(file: Path, pixels: int) -> None:
+    """Refuse a MATLAB file that unpacks to more than normals in double precision.
+
+    An array that is packed begins with the number 15 and its size in the file.
+    """
+    most = SLACK + pixels * 3 * 8
+    with file.open("rb") as stream:
+        stream.seek(MATLAB_HEADER)
+        while len(head := stream.read(8)) == 8:
+            kind, size = struct.unpack("<II", head)
+            content = stream.read(size)
+            if (
+                kind == PACKED
+                and len(zlib.decompressobj().decompress(content, most)) == most
+            ):
+                raise ValueError
 
 
 def normals_of_disc(folder: Path, seen: np.ndarray) -> np.ndarray:

@@ -56,6 +56,8 @@ def lines(path: Path | str) -> Iterator[Line]:
         OSError: The file cannot be read.
     """
     path = Path(path)
+    if not path.is_file():  # a device has no end, a pipe waits for a writer
+        raise OSError(f"`{path}` is not a file that can be read.")
     refuse_cut_number(path)
     with path.open(encoding="utf-8-sig", errors="replace") as stream:
         number = 0

@@ -15,6 +15,7 @@ from brdffit.samples import Measurement
 from brdffit.types import Mask, Values, Vectors
 
 NORMAL = np.array([0.0, 0.0, 1.0])
+SMALL = 5_000_000  # bytes of pixels that any image of a surface may unpack to
 HORIZON = 1e-6  # cosine; 90 degrees is 6e-17 after rounding, and is at the horizon
 
 

@@ -43,7 +43,6 @@ pixels came from and is no part of the scene.
 
 import dataclasses
 import os
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -66,6 +65,7 @@ from brdffit.scene.materials import SMOOTH
 from brdffit.scene.scene import Scene
 from brdffit.scene.shadows import SHADOWS
 from brdffit.scene.shapes import SHAPES
+from brdffit.scene.sidecar import load_toml
 from brdffit.scene.style import STYLES
 from brdffit.scene.surface import HeightMap, OpacityMap
 from brdffit.scene.triangles import Triangles
@@ -80,6 +80,8 @@ KIND_OF: dict[type[eqx.Module], str] = {
     for kind, made in kinds.items()
 }
 FILES = ("file", "map")  # keys whose value is a path
+LONGEST = 1000  # characters of a path
+MOST = 10_000  # lights or shapes
 
 
 def load_scene(path: str | Path) -> Scene:
@@ -127,27 +129,14 @@ def save_scene(
         temporary.write_text(tomli_w.dumps(table), encoding="utf-8")
 
 
-def load_toml(path: str | Path) -> dict[str, Any]:
-    """A TOML file as nested dictionaries.
-
-    Raises:
-        OSError: The file cannot be read.
-        ValueError: The file is not TOML.
-    """
-    try:
-        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise OSError(f"Scene `{path}` cannot be read: {error.strerror}.") from error
-    except ValueError as error:  # of TOML and of its encoding
-        raise ValueError(f"Scene `{path}` is not TOML: {error}.") from error
-
-
 def _scene(table: dict[str, Any], folder: Path) -> Scene:
     _check_keys(table, Scene)
     parts = dict(table)
     for key, kinds in LISTS.items():
         if not isinstance(table[key], list):
             raise ValueError(f"`{key}` must be a list of tables, written [[{key}]].")
+        if len(table[key]) > MOST:
+            raise ValueError(f"There must be at most {MOST} {key}.")
         parts[key] = tuple(
             _part(f"{key}[{index}]", part, kinds, folder)
             for index, part in enumerate(table[key])
@@ -180,8 +169,8 @@ def _made(place: str, table: dict[str, Any], made: Any, folder: Path) -> Any:
                 _require_table(key, value)
                 inside[key] = _made(key, value, INNER[key], folder)
             elif key in FILES:
-                if not isinstance(value, str):
-                    raise ValueError(f"`{key}` must name a file, but is {value!r}.")
+                if not isinstance(value, str) or len(value) > LONGEST:
+                    raise ValueError(f"`{key}` must name a file, but is {value!r:.60}.")
                 inside[key] = folder / value
         return made(**inside)
     except (ValueError, OSError) as error:

@@ -1,5 +1,6 @@
 """Triangles of a mesh, from arrays or from a file by way of trimesh."""
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -82,7 +83,7 @@ def _mesh(key: str, source: Any) -> tuple[Any, str]:
         vertices, faces = _pair(key, source)
         return trimesh.Trimesh(vertices, faces, process=False), ""
     path = Path(source)
-    if not path.is_file():
+    if not os.path.isfile(path):  # also where the name itself cannot be
         raise FileNotFoundError(f"`{key}`: mesh `{path}` does not exist.")
     try:
         mesh: Any = trimesh.load(path, force="mesh", process=False)

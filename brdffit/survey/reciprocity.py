@@ -120,9 +120,9 @@ def differences(
 
 def relative(a: Values, b: Values) -> Float[np.ndarray, " pair"]:
     """``|a - b| / max(a, b)`` where both are known, not negative and not both 0."""
-    both = (a >= 0) & (b >= 0) & (np.maximum(a, b) > 0)
-    larger = np.where(both, np.maximum(a, b), 1)
-    return (np.abs(a - b) / larger)[both]
+    larger = np.maximum(a, b)
+    both = (a >= 0) & (b >= 0) & (larger > 0) & (larger < np.inf)
+    return np.abs(a[both] - b[both]) / larger[both]
 
 
 def turned(wi: np.ndarray, wo: np.ndarray) -> np.ndarray:

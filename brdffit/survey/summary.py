@@ -52,9 +52,11 @@ class Summary:
     reciprocity: Reciprocity | None
 
     def to_dict(self) -> dict[str, Any]:
-        """The summary in types that JSON knows."""
+        """The summary in types that JSON knows; None where there is no number."""
         return {
-            name: list(value) if isinstance(value, tuple) else value
+            name: [None if item != item else item for item in value]
+            if isinstance(value, tuple)
+            else value
             for name, value in dataclasses.asdict(self).items()
         }
 

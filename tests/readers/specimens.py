@@ -249,6 +249,13 @@ def utia(folder):
     return path
 
 
+def files_of(path):
+    """All files that belong to a specimen."""
+    if path.is_dir():
+        return sorted(path.iterdir())
+    return [path, *path.parent.glob(f"{path.stem}.toml")]
+
+
 SPECIMENS = {
     make.__name__: make
     for make in (

@@ -1,5 +1,6 @@
 """Damaged files: always a measurement or one sentence, never much memory."""
 
+import random
 import re
 import tracemalloc
 
@@ -9,7 +10,10 @@ from hypothesis import HealthCheck, given, settings, strategies as st
 
 import brdffit
 from brdffit.readers import READERS
-from tests.readers.specimens import SPECIMENS
+from tests.readers.guard import Guard
+from tests.readers.mutants import KINDS, damaged
+from tests.readers.specimens import SPECIMENS, files_of
+from tests.readers.traps import TRAPS
 
 every_format = pytest.mark.parametrize("name", READERS)
 SLOW = "merl"  # 35 MB: damaged on disk in place, and less often
@@ -28,13 +32,6 @@ def load_or_refuse(path):
         return None
     assert loaded.mask.any()
     return loaded
-
-
-def files_of(path):
-    """All files that belong to a specimen."""
-    if path.is_dir():
-        return sorted(path.iterdir())
-    return [path, *path.parent.glob(f"{path.stem}.toml")]
 
 
 @every_format
@@ -186,3 +183,37 @@ def test_a_measurement_without_any_value_is_refused(tmp_path):
     stored.flush()
     with pytest.raises(ValueError, match="holds no value that can be used"):
         brdffit.load(path)
+
+
+@pytest.fixture(scope="module")
+def guard(tmp_path_factory):
+    with Guard() as guard:
+        for name in ("sphere_exr", "sphere_photos"):  # so that imports are charged here
+            guard.read(SPECIMENS[name](tmp_path_factory.mktemp("first")))
+        yield guard
+
+
+def size_of(path):
+    return sum(file.stat().st_size for file in files_of(path) if file.is_file())
+
+
+@every_format
+def test_damage_is_told_in_a_sentence_within_memory_and_time(name, guard, tmp_path):
+    """A share of what experiments/hostile_input.py does in full."""
+    path = SPECIMENS[name](tmp_path)
+    size, choice = size_of(path), random.Random(1)
+    for file in files_of(path):
+        whole = file.read_bytes()
+        for kind, damages in KINDS.items():
+            listed = damages(whole)
+            most = 1 if name == SLOW else 6
+            for damage in choice.sample(listed, min(len(listed), most)):
+                file.write_bytes(damaged(whole, damage))
+                assert not guard.read(path).wrong(size, path.stem), (file.name, kind)
+        file.write_bytes(whole)
+
+
+@pytest.mark.parametrize("trap", TRAPS, ids=lambda trap: trap.__name__)
+def test_a_trap_is_no_trap(trap, guard, tmp_path):
+    path = trap(tmp_path)
+    assert not guard.read(path).wrong(size_of(path), "specimen")

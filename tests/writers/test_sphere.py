@@ -5,7 +5,7 @@ from brdffit import images
 from brdffit.models import MODELS
 from brdffit.render import provenance, simulate_image, trace
 from brdffit.scene import lit_sphere, load_scene
-from brdffit.scene.files import load_toml
+from brdffit.scene.sidecar import load_toml
 from brdffit.writers import sphere
 
 BRDF = MODELS["lambert"](albedo=[0.8, 0.4, 0.2])

@@ -1,0 +1,133 @@
+"""Does any damaged or lying file bring a reader down, or make it slow or large?
+
+Every reader gets its specimen of the tests, and measured files where there are any: cut
+at every kilobyte, with bits of the header flipped, with words of it as counts that
+cannot be, with numbers of a text that are none; and then the traps of the tests, which
+are bombs, devices, links and paths out of a folder. A child process reads them, first
+by `brdffit.load`, then by ``brdffit info``. Wrong is all but a result or one sentence
+that names the file, more than 10 s, or more memory than 200 MB above the size of the
+file. Of kinds other than cuts as many are drawn as `MOST`.
+
+    python -m experiments.hostile_input
+
+takes about ten minutes on one core. A smaller share of it is a test.
+"""
+
+import os
+import random
+import sys
+import tempfile
+from pathlib import Path
+
+from experiments.merl_standins import DATA
+from experiments.record import RESULTS, Record
+from tests.readers.guard import Guard
+from tests.readers.mutants import KINDS, damaged
+from tests.readers.specimens import SPECIMENS, files_of
+from tests.readers.traps import TRAPS
+
+MOST = 150  # damages of one kind, other than cuts, to one file
+MEASURED = (
+    "ualoft/AnoBlackEC1onAlum.txt",
+    "ualoft/AnoBlackEC1onAlum.bsdf",
+    "nist_ptfe/ptfe_regular_532nm.csv",
+    "rgl/chm_mint_rgb.bsdf",
+    "curet/abrdf.dat",
+)
+
+
+class Tally:
+    """What became of the files of one row of the table."""
+
+    def __init__(self, **row):
+        """Nothing yet."""
+        self.row = row
+        self.verdicts, self.wrong, self.above = [], [], []
+
+    def add(self, verdict, size, name):
+        """Count a verdict on files of so many bytes."""
+        self.verdicts.append(verdict)
+        self.above.append(verdict.megabytes - size / 1e6)
+        if wrong := verdict.wrong(size, name):
+            self.wrong.append(wrong)
+            print(f"WRONG {self.row}: {wrong}", file=sys.stderr, flush=True)
+
+    def counted(self):
+        """The row of the table."""
+        outcomes = [verdict.outcome for verdict in self.verdicts]
+        return self.row | {
+            "files": len(outcomes),
+            "read": outcomes.count("read"),
+            "refused": outcomes.count("refused"),
+            "wrong": len(self.wrong),
+            "most_megabytes_above_size": round(max(*self.above, 0.0), 1),
+            "longest_seconds": round(max(v.seconds for v in self.verdicts), 2),
+        }
+
+
+def size_of(path):
+    """Bytes of a file, with the scene beside it, or of a folder."""
+    return sum(file.stat().st_size for file in files_of(path) if file.is_file())
+
+
+def mutants(guard, path, told, most):
+    """A tally for each kind of damage to each kind of file of a specimen."""
+    assert guard.read(path).outcome == "read"
+    tallies = {}
+    for file in files_of(path):
+        whole, size = file.read_bytes(), size_of(path)
+        for kind, damages in KINDS.items():
+            chosen = damages(whole)
+            if kind != "cuts" and len(chosen) > most:
+                chosen = random.Random(0).sample(chosen, most)
+            tally = tallies.setdefault(kind, Tally(file=told, damage=kind))
+            for damage in reversed(chosen):  # the longest first
+                if kind == "cuts":
+                    os.truncate(file, damage[0])
+                else:
+                    file.write_bytes(damaged(whole, damage))
+                tally.add(guard.read(path), size, path.stem)
+            file.write_bytes(whole)
+    return [tally.counted() for tally in tallies.values() if tally.verdicts]
+
+
+def copy(source, folder):
+    """A measured file, with what belongs to it, where it may be damaged."""
+    for file in (source, source.parent / "table.txt"):
+        if file.is_file():
+            (folder / file.name).write_bytes(file.read_bytes())
+    return folder / source.name
+
+
+def main(folder=RESULTS / "hostile_input", formats=tuple(SPECIMENS), most=MOST):
+    """Write the table.
+
+    Args:
+        folder: Where the results go.
+        formats: Readers whose specimens are damaged.
+        most: Damages of one kind, other than cuts, to one file.
+    """
+    record, rows = Record(folder, seed=0), []
+    with Guard() as guard:
+        makers = {name: SPECIMENS[name] for name in formats}
+        makers |= {
+            name: lambda folder, name=name: copy(DATA / name, folder)
+            for name in MEASURED
+            if formats == tuple(SPECIMENS) and (DATA / name).is_file()
+        }
+        for name, make in makers.items():
+            with tempfile.TemporaryDirectory() as temporary:
+                rows += mutants(guard, make(Path(temporary)), name, most)
+        for trap in TRAPS:
+            with tempfile.TemporaryDirectory() as temporary:
+                path = trap(Path(temporary))
+                tally = Tally(file=trap.__name__.replace("_", " "), damage="trap")
+                tally.add(guard.read(path), size_of(path), "specimen")
+                rows.append(tally.counted())
+    record.table(rows)
+    record.close(damages_of_a_kind=most, files=sum(row["files"] for row in rows))
+    return rows
+
+
+if __name__ == "__main__":
+    sys.exit(int(any(row["wrong"] for row in main())))
