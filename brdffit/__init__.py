@@ -40,6 +40,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
     from brdffit.batch.folder import Batch as Batch, batch as batch
+    from brdffit.batch.texture import fit_texture as fit_texture
     from brdffit.cache import enable_compilation_cache as enable_compilation_cache
     from brdffit.databases import fetch as fetch
     from brdffit.effects import Plan as Plan, plan as plan
@@ -87,6 +88,7 @@ _HOME = {
     "export": "exports",
     "fetch": "databases",
     "fit": "fit",
+    "fit_texture": "batch.texture",
     "least_squares": "fit.least_squares",
     "lit_sphere": "scene",
     "load": "readers",

@@ -7,6 +7,7 @@ numbers, and nothing big goes through a scheduler.
 
 import functools
 import os
+import pickle
 import queue
 import threading
 from collections.abc import Callable, Generator, Iterable
@@ -17,6 +18,7 @@ Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
 
 AHEAD = 3  # tasks that a cluster is given for each of its threads
+LARGEST = 100_000  # bytes of a task that a scheduler may be given
 TIMEOUT = 10  # seconds to reach a scheduler
 
 
@@ -34,6 +36,8 @@ def outcomes(
 
     Raises:
         ConnectionError: There is no scheduler at the address, or it went away.
+        ChildProcessError: A task kills one worker of a cluster after the other.
+        ValueError: A task is too large to be sent to a cluster.
         Exception: Whatever a task raised first; no other task is begun then.
     """
     if cluster is None:
@@ -101,7 +105,16 @@ def _by_workers(
     task: Callable[[Item], Outcome], items: Iterable[Item], address: str
 ) -> Generator[Outcome]:
     """Tasks on a cluster, never more at once than keep its threads busy."""
-    client, completed, lost = _connect(address)
+    size = len(pickle.dumps(task))
+    if size > LARGEST:
+        raise ValueError(
+            f"A task for a cluster must be small, but has {size:,} bytes: write what "
+            "it works on to a disk that all workers see, and name the path."
+        )
+    client = _connect(address)
+    from distributed import KilledWorker, as_completed
+
+    completed = as_completed(loop=client.loop, with_results=True)
     waiting = iter(items)
 
     def submit(count: int) -> None:
@@ -112,11 +125,33 @@ def _by_workers(
         submit(AHEAD * max(sum(client.nthreads().values()), 1))
         for future, outcome in completed:
             if future.status == "cancelled":
-                raise lost
+                raise ConnectionError(f"The Dask scheduler at `{address}` went away.")
             submit(1)
             yield outcome
+    except KilledWorker as error:
+        raise ChildProcessError(
+            f"A task has killed {error.allowed_failures + 1} workers of the cluster, "
+            "most likely for want of memory; their logs say more."
+        ) from error
     finally:
         client.close(timeout=1)
+
+
+def _connect(address: str) -> Any:
+    """A client of the scheduler at an address."""
+    try:
+        from distributed import Client
+    except ModuleNotFoundError as missing:
+        raise ValueError(
+            f"A cluster needs the package {missing.name}, which is not installed: "
+            "pip install 'brdffit[cluster]'."
+        ) from missing
+    try:
+        return Client(address, timeout=TIMEOUT, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise ConnectionError(
+            f"There is no Dask scheduler at `{address}`: {error}."
+        ) from error
 
 
 def _on_worker(task: Callable[[Item], Outcome], item: Item) -> Outcome:
@@ -130,22 +165,3 @@ def _keep_programs() -> None:
     from brdffit.cache import enable_compilation_cache
 
     enable_compilation_cache()
-
-
-def _connect(address: str) -> tuple[Any, Any, ConnectionError]:
-    """A client, its futures as they complete, and what to say when it is lost."""
-    try:
-        from distributed import Client, as_completed
-    except ModuleNotFoundError as missing:
-        raise ValueError(
-            f"A cluster needs the package {missing.name}, which is not installed: "
-            "pip install 'brdffit[cluster]'."
-        ) from missing
-    try:
-        client = Client(address, timeout=TIMEOUT, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise ConnectionError(
-            f"There is no Dask scheduler at `{address}`: {error}."
-        ) from error
-    lost = ConnectionError(f"The Dask scheduler at `{address}` went away.")
-    return client, as_completed(loop=client.loop, with_results=True), lost

@@ -13,6 +13,7 @@ import hashlib
 import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from filelock import FileLock, Timeout
 
 from brdffit.files import replacing, require_writable
 
+WAITING = 8  # files that are waited for at the same time
 LEDGER = "ledger.jsonl"
 LOCK = ".lock"
 
@@ -68,14 +70,17 @@ def seal(files: Iterable[Path]) -> str:
         OSError: One of them cannot be read, or not be kept.
     """
     files = list(files)
-    total = hashlib.sha256()
-    for path in files:
-        with path.open("rb") as stream:
-            os.fsync(stream.fileno())
-            total.update(hashlib.file_digest(stream, "sha256").digest())
-    for folder in {path.parent for path in files}:
-        _settle(folder)
-    return total.hexdigest()
+    with ThreadPoolExecutor(WAITING) as pool:  # a disk takes many at once as one
+        parts = list(pool.map(_settled, files))
+        list(pool.map(_settle, {path.parent for path in files}))
+    return hashlib.sha256(b"".join(parts)).hexdigest()
+
+
+def _settled(file: Path) -> bytes:
+    """The checksum of a file that the disk has."""
+    with file.open("rb") as stream:
+        os.fsync(stream.fileno())
+        return hashlib.file_digest(stream, "sha256").digest()
 
 
 def _settle(folder: Path) -> None:

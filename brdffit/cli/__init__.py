@@ -41,6 +41,7 @@ app = App(
     version=_version,
     help_format="plaintext",
     default_parameter=Parameter(negative=(), show_default=False),
+    suppress_keyboard_interrupt=False,
 )
 COMMANDS = (
     demo,
@@ -63,6 +64,10 @@ for command in COMMANDS:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command.
 
+    Args:
+        arguments: Words; by default those of the shell. The process then ends at once
+            when interrupted, as a thread in a compiled program cannot be stopped.
+
     Returns:
         0 done, 1 did not converge, 2 bad input, for which one sentence stands on
         standard error.
@@ -83,6 +88,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     except KeyboardInterrupt as stop:
         _say(str(stop) or "Interrupted.")
+        if arguments is None:
+            sys.stdout.flush()
+            os._exit(INTERRUPTED)
         return INTERRUPTED
 
 

@@ -65,12 +65,12 @@ class TexelBlock(eqx.Module):
     ``whole`` is True when every value is finite.
     """
 
-    wi: Float[AnyArray, "observation 3 texel_or_1"]
-    wo: Float[AnyArray, "observation 3 texel_or_1"]
-    weight: Float[AnyArray, "observation channel_or_1 texel_or_1"]
+    wi: Float[AnyArray, "observation 3 _"]
+    wo: Float[AnyArray, "observation 3 _"]
+    weight: Float[AnyArray, "observation _ _"]
     value: Float[AnyArray, "observation channel texel"]
-    mask: Bool[AnyArray, "observation channel_or_1 texel_or_1"] | None
-    sigma: Float[AnyArray, "observation channel_or_1 texel_or_1"] | None
+    mask: Bool[AnyArray, "observation _ _"] | None
+    sigma: Float[AnyArray, "observation _ _"] | None
     whole: bool = eqx.field(static=True)
 
 
@@ -86,13 +86,13 @@ class Observed(eqx.Module):
         count: Number of values used.
     """
 
-    wi: Float[Array, "observation 3 texel_or_1"]
-    wo: Float[Array, "observation 3 texel_or_1"]
-    weight: Float[Array, "weights observation texel_or_1"]
+    wi: Float[Array, "observation 3 _"]
+    wo: Float[Array, "observation 3 _"]
+    weight: Float[Array, "weights observation _"]
     value: Float[Array, "channel observation texel"]
     target: Float[Array, "channel observation texel"]
-    lean: Float[Array, "leans observation texel_or_1"]
-    scale: Float[Array, "scales observation texel_or_1"]
+    lean: Float[Array, "leans observation _"]
+    scale: Float[Array, "scales observation _"]
     count: Float[Array, " texel"]
 
 

@@ -22,12 +22,12 @@ class Texels:
         ValueError: Arrays whose shapes do not fit each other.
     """
 
-    wi: Float[np.ndarray, "observation 3 texel_or_1"]
-    wo: Float[np.ndarray, "observation 3 texel_or_1"]
-    weight: Float[np.ndarray, "observation channel_or_1 texel_or_1"]
+    wi: Float[np.ndarray, "observation 3 _"]
+    wo: Float[np.ndarray, "observation 3 _"]
+    weight: Float[np.ndarray, "observation _ _"]
     value: Float[np.ndarray, "observation channel texel"]
-    mask: Bool[np.ndarray, "observation channel_or_1 texel_or_1"] | None = None
-    sigma: Float[np.ndarray, "observation channel_or_1 texel_or_1"] | None = None
+    mask: Bool[np.ndarray, "observation _ _"] | None = None
+    sigma: Float[np.ndarray, "observation _ _"] | None = None
 
     def __post_init__(self) -> None:
         """Refuse what does not fit the values."""
@@ -75,8 +75,8 @@ class TexelFits:
         at_bound: True where a parameter ended on one of its bounds.
     """
 
-    parameters: Mapping[str, Float[np.ndarray, "channel_or_1 texel"]]
-    standard_errors: Mapping[str, Float[np.ndarray, "channel_or_1 texel"]]
+    parameters: Mapping[str, Float[np.ndarray, "_ texel"]]
+    standard_errors: Mapping[str, Float[np.ndarray, "_ texel"]]
     rms: Float[np.ndarray, " texel"]
     converged: Bool[np.ndarray, " texel"]
     steps: Int[np.ndarray, " texel"]
