@@ -51,7 +51,7 @@ def seconds(view):
     """Time of finding what every pixel sees of the light."""
     geometry = Geometry(view.shapes)
     hits = geometry.first_hits(*view.camera.rays())
-    light = incident(view, hits.position, 3, None)
+    light = incident(view.lights, hits.position, 3, None)
     taken = []
     for run in range(RUNS + 1):  # the first one compiles
         begin = time.perf_counter()
