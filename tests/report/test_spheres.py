@@ -15,7 +15,9 @@ DARK = MODELS["lambert"](albedo=[0.25])
 
 def pixels(uri):
     content = base64.b64decode(uri.removeprefix("data:image/webp;base64,"))
-    return np.asarray(imread(io.BytesIO(content), format="webp"), int)
+    shown = np.asarray(imread(io.BytesIO(content), format="webp"), int)
+    opaque = np.full((*shown.shape[:2], 1), 255)  # where the file leaves it out
+    return np.concatenate([shown, opaque], axis=2)[..., :4]
 
 
 @pytest.fixture(scope="module")
