@@ -16,9 +16,10 @@ from benchmarks.measure import use_one_core
 from benchmarks.record import RESULTS, facts
 from brdffit.compiled import compiled
 from brdffit.models import MODELS
+from brdffit.plots.style import COLOURS, MUTED, new_figure
 from brdffit.render import shade, trace
 from brdffit.scene import Ambient, Directional, Orthographic, Point, Scene, Sphere
-from experiments.record import Record
+from experiments.record import Record, styled
 
 SUN = Directional([-0.48, 0.6, 0.64])
 SCENES = {
@@ -60,6 +61,24 @@ def ratios(brdf, scene, turns: int) -> np.ndarray:
     return np.array(found)
 
 
+@styled
+def figure(rows: list[dict]):
+    """Median ratios with a line over their quartiles, and the limit."""
+    drawn = new_figure(6.4, 3.0)
+    axes = drawn.subplots()
+    for place, row in enumerate(rows):
+        ends = [float(end) for end in row["quartiles"].split("-")]
+        axes.plot(ends, (place, place), color=COLOURS[0], linewidth=1)
+        axes.plot(row["ratio"], place, "o", color=COLOURS[0], markersize=5)
+    axes.axvline(MOST, color=MUTED, linestyle="--", label=f"limit {MOST}")
+    names = [f"{row['scene']}, {row['model']}" for row in rows]
+    axes.set_yticks(range(len(rows)), names)
+    axes.invert_yaxis()
+    axes.set_xlabel("time with brdffit / time of a program without effects")
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), frameon=False)
+    return drawn
+
+
 def main(folder=RESULTS / "absent", turns=TURNS, resolution=256):
     """Time all scenes and models."""
     record = Record(folder, seed=0)
@@ -80,6 +99,7 @@ def main(folder=RESULTS / "absent", turns=TURNS, resolution=256):
             )
             print(*rows[-1].values(), flush=True)
     record.table(rows)
+    record.figure(figure(rows))
     record.close(**facts(turns))
     return rows
 

@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 
 from benchmarks import (
+    absent,
     ceres,
     cold_start,
     gonio_fit,
     growth,
     growth_of_one,
     many_starts,
+    megapixels,
     merl_fit,
     plain,
     problems,
@@ -175,3 +177,17 @@ def test_time_and_memory_of_one_size_are_measured(monkeypatch):
     assert found["seconds"] > 0
     assert found["data_mb"] == pytest.approx(1000 * 9 * 4 / 2**20, abs=1e-3)
     assert found["peak_mb"] > 1
+
+
+def test_effects_that_are_absent_are_timed_for_all_scenes(tmp_path):
+    absent.main(tmp_path, turns=1, resolution=8)
+    assert [row["scene"] for row in table(tmp_path)[::3]] == list(absent.SCENES)
+    assert all(float(row["ratio"]) > 0 for row in table(tmp_path))
+
+
+def test_spheres_are_rendered_beside_mitsuba(tmp_path):
+    pytest.importorskip("mitsuba")
+    megapixels.main(tmp_path, turns=1, resolution=16)
+    speeds = [float(row["megapixels_per_s"]) for row in table(tmp_path)]
+    assert len(speeds) == 9
+    assert min(speeds) > 0
