@@ -88,6 +88,7 @@ def test_names_cover_neither_each_other_nor_points():
     figure.draw_without_rendering()
     names = [f"variant {n}" for n in range(len(points))]
     assert label_points(axes, points, names) == []
+    figure.draw_without_rendering()  # which puts the texts in their places
     renderer = figure.canvas.get_renderer()
     boxes = [Text.get_window_extent(t, renderer).padded(-0.5) for t in axes.texts]
     assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
