@@ -14,6 +14,7 @@ What accuracy costs in time:
 
 Models and what they describe:
 
+    introduction       what does a fit of the bundled examples look like?
     model_comparison   which model explains which material, under which residual?
     merl_ranking       which models fit stand-ins for MERL materials best, and how fast?
     curet_matte        how much does a rough model gain over Lambert's on matte samples?

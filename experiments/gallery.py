@@ -2,17 +2,28 @@
 
     python -m experiments.gallery
 
-It is made from what the experiments have left in `results`; nothing in it is typed.
+It is made from what the experiments have left in `results`, and so are the pictures and
+the table of models in the README; nothing in them is typed.
 """
 
+import inspect
 import re
 import tomllib
 
 import experiments
 from brdffit.files import replacing
+from brdffit.models import MODELS
+from brdffit.parameters import parameters
 from experiments.record import RESULTS
 
 PAGE = RESULTS / "README.md"
+README = RESULTS.parent / "README.md"
+PICTURES = {
+    "solvers": "figure",
+    "six_materials": "figure",
+    "effect_cost": "pictures",
+    "model_comparison": "spheres",
+}
 FIRST = "figure"  # which figure stands before the others
 SHOWN = 6  # figures of one experiment, beyond which only the first is shown
 FULL = "full"  # folder of the results at full size, where the usual one is reduced
@@ -38,13 +49,19 @@ def figures(folder):
     return found if len(found) <= SHOWN else found[:1]
 
 
+def told(folder):
+    """What a run says of itself; nothing where there was none."""
+    path = folder / "run.toml"
+    return tomllib.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+
+
 def section(name, question, root=RESULTS):
     """What one experiment contributes."""
     folder = root / name
     lines = [f"## {name}", "", question[0].upper() + question[1:]]
-    if not (folder / "run.toml").exists():
+    run = told(folder)
+    if not run:
         return [*lines, "", "It has not been run."]
-    run = tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))
     finding = run.get("finding", "")
     if finding:
         lines += ["", f"**{finding}**"]
@@ -63,10 +80,48 @@ def page(root=RESULTS):
     return "\n\n".join([HEAD.strip(), *("\n".join(part) for part in parts)]) + "\n"
 
 
+def models():
+    """Table of the models, each with a sphere, for the README."""
+    lines = ["| | model | what it is | parameters |", "| --- | --- | --- | --- |"]
+    for name, model in MODELS.items():
+        picture = RESULTS / "catalogue" / f"{name}.png"
+        if not picture.exists():
+            continue
+        words = inspect.getdoc(model).partition("\n")[0].rstrip(".")
+        shown = f'<img src="results/catalogue/{name}.png" alt="sphere of {name}">'
+        known = ", ".join(f"`{p}`" for p in parameters(model()))
+        lines.append(f"| {shown} | `{name}` | {words} | {known} |")
+    return lines
+
+
+def headline():
+    """Pictures for the README, each with what it found."""
+    lines = []
+    for name, figure in PICTURES.items():
+        question = questions()[name]
+        lines += [
+            f"![{question[0].upper()}{question[1:]}](results/{name}/{figure}.png)"
+        ]
+        lines += ["", told(RESULTS / name).get("finding", "")]
+        lines += [""]
+    return lines[:-1]
+
+
+def filled(text):
+    """The README with its parts that are made here."""
+    for name, lines in {"pictures": headline(), "models": models()}.items():
+        part = "\n".join([f"<!-- {name} -->", *lines, f"<!-- end of {name} -->"])
+        pattern = f"<!-- {name} -->.*?<!-- end of {name} -->"
+        text = re.sub(pattern, lambda _, part=part: part, text, flags=re.DOTALL)
+    return text
+
+
 def main():
-    """Write the page."""
-    with replacing(PAGE) as temporary:
-        temporary.write_text(page(), encoding="utf-8")
+    """Write the gallery, and what the README shows of it."""
+    readme = README.read_text(encoding="utf-8")
+    for path, text in ((PAGE, page()), (README, filled(readme))):
+        with replacing(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -143,7 +143,15 @@ def main(folder=RESULTS / "probe_directions", resolution=RESOLUTION, numbers=NUM
     record.table(rows)
     record.table(picked, "picked")
     record.figure(chart(rows, picked))
-    record.close(resolution=resolution, sky=list(SKY), runs=RUNS)
+    met = [row["error"] <= row["tolerance"] for row in picked if row["said_to_be_met"]]
+    record.close(
+        finding=f"The plan meets {sum(met)} of the {len(met)} tolerances that it says "
+        f"it meets, with {min(row['directions'] for row in picked):,} to "
+        f"{max(row['directions'] for row in picked):,} directions.",
+        resolution=resolution,
+        sky=list(SKY),
+        runs=RUNS,
+    )
 
 
 if __name__ == "__main__":
