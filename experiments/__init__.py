@@ -19,7 +19,6 @@ Models and what they describe:
     merl_ranking       which models fit stand-ins for MERL materials best, and how fast?
     curet_matte        how much does a rough model gain over Lambert's on matte samples?
     ptfe               which model describes a white standard better than Lambert's?
-    hostile_input      does a damaged or lying file bring a reader down?
     ball_gloss         how many lobes does the gloss of a photographed ball take?
     original_phong     when does the original Phong model give wrong results?
     metal_highlight    how does a metal's highlight end, with Beckmann and with GGX?
@@ -34,6 +33,7 @@ Whether the numbers can be trusted:
     recovery           does a fit find the truth again, for every model?
     coverage           does a 95 % interval hold the truth in 95 % of all repetitions?
     many_starts        what do many starts gain on hard cases, and what do they cost?
+    hostile_input      does a damaged or lying file bring a reader down?
     resamplings        how far do fits differ between two resamplings of one run?
 
 `python -m experiments` runs them all, each in a process of its own, and rebuilds the

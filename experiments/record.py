@@ -76,7 +76,7 @@ class Record:
         }
         if self.seed is not None:
             run["seed"] = self.seed
-        run["files"] = {path.name: digest(path) for path in self.written}
+        run["sha256"] = {path.name: digest(path) for path in self.written}
         path = self.folder / "run.toml"
         path.write_text(tomli_w.dumps(facts | run), encoding="utf-8")
 

@@ -43,7 +43,7 @@ def test_the_true_model_explains_its_own_data(tmp_path, monkeypatch):
         assert float(line["ciede2000"]) < 0.2
     run = tomllib.loads((tmp_path / "run.toml").read_text())
     assert "changes the winner on 0 of 2" in run["finding"]
-    assert {"spheres.png", "lobes.png", "figure.png"} <= set(run["files"])
+    assert {"spheres.png", "lobes.png", "figure.png"} <= set(run["sha256"])
     found = {(r["model"], r["parameter"]): r for r in table(tmp_path, "parameters")}
     own = found["phong", "exponent"]
     away = abs(float(own["value"]) - 60)

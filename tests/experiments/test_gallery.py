@@ -80,4 +80,4 @@ def test_pictures_of_the_readme_are_those_that_experiments_wrote():
     assert len(paths) > 30
     for path in paths:
         run = tomllib.loads((path.parent / "run.toml").read_text())
-        assert run["files"][path.name] == digest(path), path
+        assert run["sha256"][path.name] == digest(path), path
