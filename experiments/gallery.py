@@ -18,11 +18,12 @@ from experiments.record import RESULTS
 
 PAGE = RESULTS / "README.md"
 README = RESULTS.parent / "README.md"
+INTRODUCTION = {"introduction": ("lobes", "spheres")}
 PICTURES = {
-    "solvers": "figure",
-    "six_materials": "figure",
-    "effect_cost": "pictures",
-    "model_comparison": "spheres",
+    "solvers": ("figure",),
+    "six_materials": ("figure",),
+    "effect_cost": ("pictures",),
+    "model_comparison": ("spheres",),
 }
 FIRST = "figure"  # which figure stands before the others
 SHOWN = 6  # figures of one experiment, beyond which only the first is shown
@@ -94,22 +95,27 @@ def models():
     return lines
 
 
-def headline():
-    """Pictures for the README, each with what it found."""
+def headline(chosen):
+    """Pictures for the README, and what each experiment found; none that is absent."""
     lines = []
-    for name, figure in PICTURES.items():
-        question = questions()[name]
-        lines += [
-            f"![{question[0].upper()}{question[1:]}](results/{name}/{figure}.png)"
-        ]
-        lines += ["", told(RESULTS / name).get("finding", "")]
-        lines += [""]
+    for name, names in chosen.items():
+        question, run = questions()[name], told(RESULTS / name)
+        found = [n for n in names if f"{n}.png" in run.get("sha256", ())]
+        for figure in found:
+            lines += [f"![{question}](results/{name}/{figure}.png)", ""]
+        if found:
+            lines += [run.get("finding", ""), ""]
     return lines[:-1]
 
 
 def filled(text):
     """The README with its parts that are made here."""
-    for name, lines in {"pictures": headline(), "models": models()}.items():
+    parts = {
+        "introduction": headline(INTRODUCTION),
+        "pictures": headline(PICTURES),
+        "models": models(),
+    }
+    for name, lines in parts.items():
         part = "\n".join([f"<!-- {name} -->", *lines, f"<!-- end of {name} -->"])
         pattern = f"<!-- {name} -->.*?<!-- end of {name} -->"
         text = re.sub(pattern, lambda _, part=part: part, text, flags=re.DOTALL)
