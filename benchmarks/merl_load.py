@@ -21,9 +21,9 @@ TURNS = 5
 TASKS = {
     "import alone": "import brdffit.fit, brdffit.readers",
     "load": "brdffit.load(path)",
-    "fit lambert to all cells": "brdffit.fit('lambert', brdffit.load(path))",
-    "fit ggx to all cells": "brdffit.fit('ggx', brdffit.load(path))",
-    "fit ggx to all cells, log": "brdffit.fit('ggx', brdffit.load(path), residual='log')",
+    "fit lambert to all": "brdffit.fit('lambert', brdffit.load(path))",
+    "fit ggx to all": "brdffit.fit('ggx', brdffit.load(path))",
+    "fit ggx to all, log": "brdffit.fit('ggx', brdffit.load(path), residual='log')",
 }
 PROGRAM = """
 import json, re, sys, time, brdffit, brdffit.fit, brdffit.readers

@@ -6,8 +6,8 @@ cannot be, with numbers of a text that are none; and then the traps of the tests
 are bombs, devices, links and paths out of a folder. A child process reads them, first
 by `brdffit.load`, then by ``brdffit info``. Wrong is all but a result or one sentence
 that names the file, more than 10 s, or more memory than 200 MB above the size of the
-file. Of kinds other than cuts as many are drawn as `MOST`, a tenth of them from files above a
-megabyte; of the 34,000 cuts of a MERL file two thousand.
+file. Of kinds other than cuts as many are drawn as `MOST`, a tenth of them from files
+above a megabyte; of the 34,000 cuts of a MERL file two thousand.
 
     python -m experiments.hostile_input
 
@@ -105,13 +105,16 @@ def copy(source, folder):
     return folder / source.name
 
 
-def main(folder=RESULTS / "hostile_input", formats=tuple(SPECIMENS), most=MOST):
+def main(
+    folder=RESULTS / "hostile_input", formats=tuple(SPECIMENS), most=MOST, traps=TRAPS
+):
     """Write the table.
 
     Args:
         folder: Where the results go.
         formats: Readers whose specimens are damaged.
         most: Damages of one kind, other than cuts, to one file.
+        traps: Those to set.
     """
     record, rows = Record(folder, seed=0), []
     with Guard() as guard:
@@ -124,7 +127,7 @@ def main(folder=RESULTS / "hostile_input", formats=tuple(SPECIMENS), most=MOST):
         for name, make in makers.items():
             with tempfile.TemporaryDirectory() as temporary:
                 rows += mutants(guard, make(Path(temporary)), name, most)
-        for trap in TRAPS:
+        for trap in traps:
             with tempfile.TemporaryDirectory() as temporary:
                 path = trap(Path(temporary))
                 tally = Tally(file=trap.__name__.replace("_", " "), damage="trap")

@@ -19,6 +19,7 @@ from benchmarks import (
     many_starts,
     megapixels,
     merl_fit,
+    merl_load,
     plain,
     problems,
     sphere_fit,
@@ -191,3 +192,8 @@ def test_spheres_are_rendered_beside_mitsuba(tmp_path):
     speeds = [float(row["megapixels_per_s"]) for row in table(tmp_path)]
     assert len(speeds) == 9
     assert min(speeds) > 0
+
+
+def test_a_merl_file_is_read_in_bounded_memory(tmp_path):
+    rows = merl_load.main(tmp_path, turns=1, tasks={"load": merl_load.TASKS["load"]})
+    assert rows[0]["peak_megabytes"] < 500

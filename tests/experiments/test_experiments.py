@@ -12,6 +12,7 @@ import pytest
 from experiments import (
     anisotropy,
     classic_scenes,
+    hostile_input,
     metal_highlight,
     million_pairs,
     original_phong,
@@ -189,3 +190,13 @@ def test_classic_scenes_are_drawn(tmp_path):
     assert "bounces" in effects["table top: traced"]
     assert effects["bumps of 0"] == []
     assert effects["Gooch: outlines"] == ["style"]
+
+
+def test_damage_and_traps_are_counted(tmp_path):
+    traps = hostile_input.TRAPS[:2]
+    hostile_input.main(tmp_path, formats=("fred",), most=3, traps=traps)
+    rows = table(tmp_path)
+    assert [row["damage"] for row in rows[:4]] == ["cuts", "flips", "words", "numbers"]
+    assert len(rows) == 6
+    assert {row["wrong"] for row in rows} == {"0"}
+    assert all(int(r["read"]) + int(r["refused"]) == int(r["files"]) for r in rows)
