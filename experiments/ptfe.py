@@ -72,12 +72,22 @@ def measured(data):
     return f_r
 
 
-def error_to(brdf, data, steepest=STEEPEST):
-    """Root mean square of ``(f - y) / y`` over views up to so many degrees."""
-    here = np.asarray(data.mask)[:, 0]
-    here &= data.wo[:, 2] > np.cos(np.radians(steepest + 0.1))
-    found = np.asarray(compiled_shade(brdf, as_samples(data)))
-    return float(np.sqrt(np.mean((found[here] / data.f_r[here] - 1) ** 2)))
+def definitions(data, fits):
+    """The error of fits by two definitions: over all views, and without the steepest.
+
+    The first is the root mean square of ``ln f - ln y``, which was minimised, the
+    second that of ``(f - y) / y``.
+    """
+    mild = np.asarray(data.mask)[:, 0]
+    mild &= data.wo[:, 2] > np.cos(np.radians(STEEPEST + 0.1))
+    for name, fit in fits.items():
+        ratio = np.asarray(compiled_shade(fit.brdf, as_samples(data))) / data.f_r
+        yield {
+            "model": name,
+            "log_rms_percent": 100 * fit.rms["log"],
+            "relative_rms_to_75_degrees_percent": 100
+            * float(np.sqrt(np.mean((ratio[mild] - 1) ** 2))),
+        }
 
 
 def fitted(brdf):
@@ -138,7 +148,6 @@ def main(folder=RESULTS / "ptfe", models=None, starts=STARTS):
             {
                 "model": name,
                 "relative_rms_percent": 100 * fits[name].rms["log"],
-                "to_75_degrees_percent": 100 * error_to(fits[name].brdf, data),
                 "forward_over_back": forward_over_back(fitted(fits[name].brdf)),
                 "free_numbers": len(fits[name].labels),
                 "converged": fits[name].converged,
@@ -151,7 +160,9 @@ def main(folder=RESULTS / "ptfe", models=None, starts=STARTS):
         ]
     )
     shown = dict.fromkeys([*ranked[:SHOWN], "lambert", "oren_nayar"])
-    record.figure(chart(data, {name: fits[name] for name in shown if name in fits}))
+    shown = {name: fits[name] for name in shown if name in fits}
+    record.table(list(definitions(data, shown)), "definitions")
+    record.figure(chart(data, shown))
     record.close(
         forward_over_back_measured=forward_over_back(measured(data)),
         starts=starts,
