@@ -20,7 +20,7 @@ from experiments import many_starts
 from experiments.pareto import chart
 from experiments.record import RESULTS, Record
 from experiments.solvers import LEAST, optimum
-from experiments.tradeoff import Variant, measured, rounded
+from experiments.tradeoff import Variant, measured, rounded, saved
 
 PRECISIONS = ("float64", "float32")
 RESOLUTIONS = (16, 32, 64, 128, 256, 512)
@@ -152,8 +152,7 @@ def finding(rows):
     _, _, more, less = gain(rows, "samples")
     return (
         f"From the fewest samples to the most, {rounded(more)} times the time buys "
-        f"1/{rounded(less)} of the error; float32 saves "
-        f"{100 * (1 - single['seconds'] / double['seconds']):.0f} % of the time at "
+        f"1/{rounded(less)} of the error; float32 {saved(single, double)} at "
         f"{double['variant']} and changes the error by "
         f"{100 * (single['error'] / double['error'] - 1):+.1g} %"
     )

@@ -22,7 +22,7 @@ from brdffit.fit.start import typical_box
 from brdffit.fit.transforms import Layout, to_natural, unpack
 from experiments.record import RESULTS, Record
 
-CASES = 100
+CASES = 50
 SEED = 21
 NOISE = 0.01
 SHARP = {"alpha": (0.002, 0.02), "alpha_x": (0.002, 0.02), "alpha_y": (0.01, 0.1)}

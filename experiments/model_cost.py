@@ -27,9 +27,8 @@ from experiments.record import RESULTS, Record
 from experiments.tradeoff import Variant, front, measured, rounded
 
 MODELS = (
-    *("lambert", "oren_nayar", "phong", "blinn_phong", "ward_duer", "cook_torrance"),
-    *("beckmann", "ggx", "student_t", "ashikhmin_shirley", "lafortune", "plastic_ggx"),
-    *("principled", "ggx+ggx_lobe"),
+    *("lambert", "oren_nayar", "phong", "ward_duer", "cook_torrance", "ggx"),
+    *("student_t", "ashikhmin_shirley", "plastic_ggx", "principled", "ggx+ggx_lobe"),
 )
 PAIRS, TURNS, STARTS = 2**15, 11, 8
 PANEL = 4.0, 3.3  # inches

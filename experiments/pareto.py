@@ -161,8 +161,10 @@ def ticks(decades):
 
 
 def plain(value, _=None):
-    """A number at an axis; powers of ten that are very small or large as such."""
-    power = math.log10(value)
-    if not 1e-3 <= value < 1e5 and abs(power - round(power)) < 1e-6:
-        return f"$10^{{{round(power)}}}$"
-    return f"{value:,.6g}"
+    """A number at an axis, with a power of ten where it is very small or large."""
+    if 1e-3 < 1.001 * value < 1e5:
+        return f"{value:,.6g}"
+    power = math.floor(math.log10(value * (1 + 1e-9)))
+    digits = f"{value / 10**power:.3g}"
+    ten = f"10^{{{power}}}"
+    return f"${ten}$" if digits == "1" else rf"${digits} \times {ten}$"

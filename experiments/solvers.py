@@ -25,7 +25,7 @@ from experiments.tradeoff import Variant, front, measured
 
 RESOLUTION, SAMPLES = 64, 4_000
 TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)
-STEPS = (2, 3, 4, 6, 10, 20)  # of brdffit
+STEPS = (2, 4, 6, 10, 20)  # of brdffit
 DESCENT = (10, 30, 100, 300)  # steps of Adam
 RATES = (0.02, 0.1)
 SHOWN = (1, 3, 10, 30, 60, 100, 200)  # steps of Mitsuba

@@ -117,8 +117,9 @@ def test_upright_lines_are_what_has_no_error():
 
 
 def test_numbers_at_axes_are_plain():
-    shown = [pareto.plain(x) for x in (1e-5, 0.0008, 0.02, 2000.0, 1e6)]
-    assert shown == ["$10^{-5}$", "0.0008", "0.02", "2,000", "$10^{6}$"]
+    shown = [pareto.plain(x) for x in (1e-5, 5e-5, 0.001, 0.02, 2000.0, 1e6)]
+    five = r"$5 \times 10^{-5}$"
+    assert shown == ["$10^{-5}$", five, "0.001", "0.02", "2,000", "$10^{6}$"]
     assert tradeoff.rounded(30512.0) == "31,000"
 
 
