@@ -10,7 +10,10 @@ them only::
     sigma   (observation, channel or 1, texel or 1)  optional: standard deviations
 
 An axis of 1 is the same for all. The attribute ``shape``, rows and columns, says that
-the texels are those of an image, row by row. Other arrays and attributes do not matter.
+the texels are those of an image, row by row; or some of them, where an array ``pixel``
+has the place of each in that order. For the names of the observations and channels,
+`brdffit svbrdf` looks at the attributes ``photographs`` and ``channels``. Other arrays
+and attributes do not matter.
 """
 
 import dataclasses

@@ -24,6 +24,7 @@ from brdffit.cli.models import models
 from brdffit.cli.plan import plan
 from brdffit.cli.render import render
 from brdffit.cli.simulate import simulate
+from brdffit.cli.svbrdf import svbrdf
 from brdffit.files import sentence
 
 DONE, NOT_CONVERGED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -50,6 +51,7 @@ COMMANDS = (
     fit,
     compare,
     batch,
+    svbrdf,
     simulate,
     plan,
     render,

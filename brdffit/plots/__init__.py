@@ -3,6 +3,7 @@
 from brdffit.plots.album import album as album
 from brdffit.plots.coverage import coverage_figure as coverage_figure
 from brdffit.plots.lobe import lobe_figure as lobe_figure, plot_lobe as plot_lobe
+from brdffit.plots.maps import maps_figure as maps_figure
 from brdffit.plots.plane import Plane as Plane, planes as planes
 from brdffit.plots.profile import profile_figure as profile_figure
 from brdffit.plots.ranking import (
@@ -10,6 +11,7 @@ from brdffit.plots.ranking import (
     plot_table as plot_table,
     ranking_figure as ranking_figure,
 )
+from brdffit.plots.relit import relit_figure as relit_figure
 from brdffit.plots.residuals import (
     plot_residuals as plot_residuals,
     residuals_figure as residuals_figure,

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import numpy as np
-import OpenImageIO
 
 from brdffit import images
+from brdffit.files import refuse_bomb
 from brdffit.types import Image
 
 
@@ -23,11 +23,14 @@ class Photograph:
 
     Raises:
         OSError: The file is missing, empty or no image.
-        ValueError: The suffix is unknown, or the file has 8 bits a channel.
+        ValueError: The suffix is unknown, the file has 8 bits a channel, or it claims
+            far more pixels than it can hold.
     """
 
     def __init__(self, path: Path) -> None:
         """Open the file and read its header."""
+        import OpenImageIO  # slow to import
+
         suffix = images.existing(path).suffix.lower()
         with images.silence():
             source = OpenImageIO.ImageInput.open(str(path))
@@ -39,6 +42,7 @@ class Photograph:
         spec = source.spec()
         if str(spec.format) == "uint8":
             raise ValueError(f"Image `{path}` {images.EIGHT_BITS}")
+        refuse_bomb(path, spec.width * spec.height * spec.nchannels)
         self.path, self._source = path, source
         self.shape: tuple[int, int] = spec.height, spec.width
         self.full = 1.0 if suffix in images.INTEGER else np.inf

@@ -40,8 +40,7 @@ def facts_of_data(
     found = summary(data, evaluate, folded)
     facts = [("Name", found.name)]
     if source and reader:
-        kind = "Folder" if source.is_dir() else "File"
-        facts += [(kind, source.name), ("Format", title(reader))]
+        facts += [("File", source.name), ("Format", title(reader))]
     facts += [
         ("Samples", _samples(found)),
         ("Channels", channels_in_words(found.channels)),

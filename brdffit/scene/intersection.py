@@ -21,10 +21,8 @@ def sphere(
     centre: Direction,
     radius: Scalar,
     least: Scalar,
-) -> tuple[Scalar, tuple[Scalar, ...]]:
+) -> tuple[Scalar, Direction]:
     """Distance, and the outward normal at the point met, from outside or inside.
-
-    The normal is returned by components, so that no program has to interleave them.
 
     The discriminant comes from the point of the ray nearest to the centre, which loses
     no digits far away.
@@ -33,16 +31,15 @@ def sphere(
         E. Haines, J. Gunther, T. Akenine-Moeller, "Precision Improvements for
         Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7, eq. 5.
     """
-    start = [o - c for o, c in zip(origin, centre, strict=True)]
+    start = origin - centre
     along = -dot(start, direction)
-    nearest = [s + along * d for s, d in zip(start, direction, strict=True)]
+    nearest = start + along * direction
     half_chord = numerics.sqrt(radius * radius - dot(nearest, nearest))
     entering = along - half_chord > least
     step = jnp.where(entering, -half_chord, half_chord)
     distance = along + step
     hit = (half_chord > 0) & (distance > least)
-    met = zip(nearest, direction, strict=True)
-    normal = tuple((n + step * d) / radius for n, d in met)
+    normal = (nearest + step * direction) / radius
     return jnp.where(hit, distance, jnp.inf), normal
 
 

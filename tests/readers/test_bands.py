@@ -62,3 +62,7 @@ def test_files_that_are_no_photographs_are_refused(tmp_path):
     OpenImageIO.ImageBuf(np.ones((4, 4, 3), np.uint8)).write(str(few))
     with pytest.raises(ValueError, match="8 bits a channel"):
         Photograph(few)
+    empty = tmp_path / "empty.exr"
+    images.write(empty, np.zeros((9000, 9000, 1), np.float32))
+    with pytest.raises(ValueError, match="empty.exr` claims 81000000 numbers"):
+        Photograph(empty)
