@@ -94,12 +94,17 @@ def contest(
 ) -> list[Entry]:
     """Check every contestant, then time all in turns, each round in another order."""
     entries = check(contestants, cost)
-    calls = {entry.contestant.name: _calls(entry) for entry in entries}
+    take_turns(entries, turns)
+    return entries
+
+
+def take_turns(entries: Sequence[Entry], turns: int) -> None:
+    """Time all entries in turns, each round in another order."""
+    calls = [_calls(entry) for entry in entries]
     order = random.Random(0)
     for _ in range(turns):
-        for entry in order.sample(entries, len(entries)):
-            _turn(entry, calls[entry.contestant.name])
-    return entries
+        for place in order.sample(range(len(entries)), len(entries)):
+            _turn(entries[place], calls[place])
 
 
 def check(

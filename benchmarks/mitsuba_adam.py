@@ -70,7 +70,10 @@ def scene(mi, diffuse, alpha):
 
 
 def descend(mi, dr, rate: float) -> dict:
-    """Processor time and steps until all parameters stay close, None if they do not."""
+    """Processor time and steps until all parameters stay close, None if they do not.
+
+    `path` holds processor time and largest relative error after every step.
+    """
     target = mi.render(scene(mi, **TRUTH), spp=256)
     world = scene(mi, **START)
     parameters = mi.traverse(world)
@@ -83,7 +86,7 @@ def descend(mi, dr, rate: float) -> dict:
         adam[key] = parameters[key]
     parameters.update(adam)
     truth = np.array([*TRUTH["diffuse"], TRUTH["alpha"]])
-    begin, reached = time.process_time(), None
+    begin, reached, path = time.process_time(), None, []
     for step in range(1, STEPS + 1):
         image = mi.render(world, parameters, spp=RAYS, seed=step)
         dr.backward(dr.mean(dr.square(image - target)))
@@ -92,13 +95,16 @@ def descend(mi, dr, rate: float) -> dict:
             adam[key] = dr.clip(adam[key], 1e-3, 1.0)
         parameters.update(adam)
         now = np.concatenate([np.ravel(parameters[key]) for key in names.values()])
-        if np.abs(now / truth - 1).max() > CLOSE:
+        off = float(np.abs(now / truth - 1).max())
+        path.append((time.process_time() - begin, off))
+        if off > CLOSE:
             reached = None
         elif reached is None:
-            reached = {"seconds": time.process_time() - begin, "steps": step}
+            reached = {"seconds": path[-1][0], "steps": step}
         elif step - reached["steps"] == STAY:
             break
-    return {"rate": rate} | (reached or {"seconds": None, "steps": STEPS})
+    reached = reached or {"seconds": None, "steps": STEPS}
+    return {"rate": rate, "path": path} | reached
 
 
 def search() -> list[dict]:
@@ -112,28 +118,42 @@ def search() -> list[dict]:
     return [descend(mi, dr, rate) for _ in range(TURNS) for rate in RATES]
 
 
+def searched() -> list[dict]:
+    """What `search` finds in a process of its own; nothing where it does not run."""
+    command = [sys.executable, "-m", "benchmarks.mitsuba_adam", "search"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        print("Mitsuba is left out: its variant `llvm_ad_rgb` does not work here.")
+        return []
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+def problem(noise: Noise):
+    """The same material and start in brdffit: a model and an image."""
+    truth = brdffit.MODELS["plastic_ggx"](**TRUTH, eta=ETA)
+    scene = brdffit.lit_sphere(RESOLUTION, LIGHTS[:1])
+    start = brdffit.MODELS["plastic_ggx"](**START, eta=ETA)
+    return start, brdffit.simulate_image(truth, scene, noise)
+
+
+def off(result) -> float:
+    """Largest relative error of a fit."""
+    found = np.array([*result.parameters["diffuse"], result.parameters["alpha"]])
+    return float(np.abs(found / [*TRUTH["diffuse"], TRUTH["alpha"]] - 1).max())
+
+
 def ours() -> dict:
     """Processor time of a whole fit of the same material, and its steps."""
-    truth = brdffit.MODELS["plastic_ggx"](**TRUTH, eta=ETA)
-    image = brdffit.simulate_image(
-        truth, brdffit.lit_sphere(RESOLUTION, LIGHTS[:1]), Noise(NOISE, seed=SEED)
-    )
-    start = brdffit.MODELS["plastic_ggx"](**START, eta=ETA)
+    start, image = problem(Noise(NOISE, seed=SEED))
     seconds = []
     for _ in range(TURNS + 1):
         begin = time.process_time()
         result = brdffit.fit(start, image, starts=1, fixed={"eta": ETA})
         seconds.append(time.process_time() - begin)
-    found = result.parameters
-    off = np.abs(
-        np.array([*found["diffuse"], found["alpha"]])
-        / np.array([*TRUTH["diffuse"], TRUTH["alpha"]])
-        - 1
-    )
     return {
         "contestant": "brdffit.fit float64, 1 start",
         "rate": "",
-        "answer": "right" if off.max() < CLOSE else "wrong",
+        "answer": "right" if off(result) < CLOSE else "wrong",
         "steps": result.steps,
         "ms": 1e3 * float(np.median(seconds[1:])),
         "over_brdffit": "1.00",
@@ -142,12 +162,9 @@ def ours() -> dict:
 
 def main(folder=RESULTS / "mitsuba_adam"):
     """Run Mitsuba in a process of its own, and compare."""
-    command = [sys.executable, "-m", "benchmarks.mitsuba_adam", "search"]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode != 0:
-        print("Mitsuba is left out: its variant `llvm_ad_rgb` does not work here.")
+    found = searched()
+    if not found:
         return []
-    found = json.loads(done.stdout.splitlines()[-1])
     record = Record(folder, SEED)
     mine = ours()
     rows = [mine]

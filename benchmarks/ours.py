@@ -15,8 +15,17 @@ from brdffit.fit.search import RTOL, solve
 OWN = (0.0,)  # the tolerance is the engine's own
 
 
-def solve_alone(problem: Problem, precision: str) -> Contestant:
-    """The program that `fit` runs, on samples laid out before, from one start."""
+def solve_alone(
+    problem: Problem,
+    precision: str,
+    max_steps: int = MAX_STEPS,
+    rtol: float | None = None,
+) -> Contestant:
+    """The program that `fit` runs, on samples laid out before, from one start.
+
+    It stops as `fit` does, unless told other steps or another tolerance.
+    """
+    rtol = RTOL[precision] if rtol is None else rtol
     samples = problem.samples
     use = np.ones(samples.value.shape, bool)
     with jax.enable_x64(True):
@@ -28,7 +37,7 @@ def solve_alone(problem: Problem, precision: str) -> Contestant:
     def run(tolerance):
         del tolerance
         with jax.enable_x64(True):
-            met = solve(ready, starts, 1, rtol=RTOL[precision], max_steps=MAX_STEPS)
+            met = solve(ready, starts, 1, rtol=rtol, max_steps=max_steps)
         return met.x[0], int(met.steps[0])
 
     return Contestant(f"brdffit {precision}", run, tolerances=OWN)

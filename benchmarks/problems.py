@@ -103,14 +103,14 @@ class Problem:
         return 0.5 * float(error @ error)
 
 
-def sphere(model: str, lights: int, resolution: int = 128) -> Problem:
+def sphere(model: str, lights: int, resolution: int = 128, seed: int = SEED) -> Problem:
     """Image of a sphere under the first few lights; every lit pixel counts."""
     scene = brdffit.lit_sphere(resolution, LIGHTS[:lights])
-    image = brdffit.simulate_image(truth(model), scene, Noise(NOISE, seed=SEED))
+    image = brdffit.simulate_image(truth(model), scene, Noise(NOISE, seed=seed))
     return _problem(model, image, cosine_weighted)
 
 
-def goniometer(model: str, samples: int = 100_000) -> Problem:
+def goniometer(model: str, samples: int = 100_000, seed: int = SEED) -> Problem:
     """Reflectance on a grid of about as many pairs of directions, compared by log."""
     side = round((samples / 5) ** (1 / 3))
     setup = Goniometer(
@@ -118,7 +118,7 @@ def goniometer(model: str, samples: int = 100_000) -> Problem:
         theta_o=np.linspace(2, 80, side),
         phi=np.linspace(0, 180, 5 * side),
     )
-    table = brdffit.simulate_measurement(truth(model), setup, Noise(NOISE, seed=SEED))
+    table = brdffit.simulate_measurement(truth(model), setup, Noise(NOISE, seed=seed))
     return _problem(model, as_samples(table), log)
 
 

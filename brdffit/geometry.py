@@ -10,11 +10,15 @@ Conventions, stated here and nowhere else:
 - angles are in radians; directions are unit vectors.
 """
 
+from collections.abc import Sequence
+
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from brdffit import numerics
 from brdffit.types import Direction, Scalar
+
+Components = Direction | Sequence[Scalar]
 
 
 def cos_theta(w: Direction) -> Scalar:
@@ -22,10 +26,16 @@ def cos_theta(w: Direction) -> Scalar:
     return w[2]
 
 
-def dot(a: Direction, b: Direction) -> Scalar:
+def dot(a: Components, b: Components) -> Scalar:
     """Cosine of the angle between two directions, by components."""
     (ax, ay, az), (bx, by, bz) = a, b
     return ax * bx + ay * by + az * bz
+
+
+def cross(a: Components, b: Components) -> tuple[Scalar, Scalar, Scalar]:
+    """Components of the vector product."""
+    (ax, ay, az), (bx, by, bz) = a, b
+    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
 
 
 def bisector(wi: Direction, wo: Direction) -> Direction:
@@ -140,8 +150,10 @@ TANGENTS = {
 """Tangent fields by the name that a scene calls them."""
 
 
-def any_tangent(normal: Direction) -> Direction:
-    """Some unit vector perpendicular to ``normal``, continuous but at z = 0.
+def any_tangent(normal: Components) -> tuple[Scalar, Scalar, Scalar]:
+    """Components of some unit vector perpendicular to a normal.
+
+    Continuous but at z = 0.
 
     Source:
         T. Duff et al., "Building an Orthonormal Basis, Revisited", Journal of Computer
@@ -150,13 +162,21 @@ def any_tangent(normal: Direction) -> Direction:
     x, y, z = normal
     sign = jnp.where(z < 0, -1.0, 1.0)
     a = -1 / (sign + z)
-    return jnp.stack([1 + sign * x * x * a, sign * x * y * a, -sign * x])
+    return 1 + sign * x * x * a, sign * x * y * a, -sign * x
 
 
-def shading_frame(normal: Direction, tangent: Direction) -> Float[Array, "3 3"]:
+def shading_frame(normal: Components, tangent: Components) -> Float[Array, "3 3"]:
     """Rows tangent, bitangent, normal: ``frame @ w`` is ``w`` in the local frame.
 
     ``tangent`` need not be perpendicular to ``normal``, only not parallel to it.
     """
-    bitangent = numerics.normalize(jnp.cross(normal, tangent))
-    return jnp.stack([jnp.cross(bitangent, normal), bitangent, normal])
+    bitangent = numerics.normalize(jnp.stack(cross(normal, tangent)))
+    rows = cross(bitangent, normal), bitangent, normal
+    return jnp.stack([jnp.stack(list(row)) for row in rows])
+
+
+def to_frame(
+    frame: Float[Array, "3 3"] | Sequence[Components], w: Components
+) -> tuple[Scalar, ...]:
+    """Components of ``frame @ w``."""
+    return tuple(dot(axis, w) for axis in frame)

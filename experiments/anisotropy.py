@@ -115,7 +115,12 @@ def main(folder=RESULTS / "anisotropy", resolution=RESOLUTION):
     apart = max(float(np.nanmax(np.abs(one - same[0]))) for one in same)
     apart /= float(np.nanmax(same[0]))
     print(f"isotropic ggx: fields differ by {apart:.1g} of the brightest pixel at most")
-    record.close(isotropic_difference=apart)
+    straight = [row["axes"] for row in rows if row["tangents"] != "radial"]
+    record.close(
+        finding=f"Along straight grooves the highlight is {min(straight):.1f} to "
+        f"{max(straight):.1f} times as long as wide.",
+        isotropic_difference=apart,
+    )
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ from brdffit.fit.start import typical_box
 from brdffit.fit.transforms import Layout, to_natural, unpack
 from experiments.record import RESULTS, Record
 
-CASES = 100
+CASES = 50
 SEED = 21
 NOISE = 0.01
 SHARP = {"alpha": (0.002, 0.02), "alpha_x": (0.002, 0.02), "alpha_y": (0.01, 0.1)}
@@ -87,8 +87,19 @@ def rows_of(name, cases):
 def main(folder=RESULTS / "many_starts", cases=CASES):
     """Write the table."""
     record = Record(folder, SEED)
-    record.table([row for name in MODELS for row in rows_of(name, cases)])
-    record.close(cases=cases, samples=len(GRID.directions()[0]), noise=NOISE)
+    rows = [row for name in MODELS for row in rows_of(name, cases)]
+    record.table(rows)
+    missed = {
+        count: 100 * float(np.mean([r["missed"] for r in rows if r["starts"] == count]))
+        for count in ("1", "16")
+    }
+    record.close(
+        finding=f"One start misses the best minimum on {missed['1']:.0f} % of the hard "
+        f"cases, sixteen miss it on {missed['16']:.0f} %.",
+        cases=cases,
+        samples=len(GRID.directions()[0]),
+        noise=NOISE,
+    )
 
 
 if __name__ == "__main__":

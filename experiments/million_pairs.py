@@ -160,7 +160,13 @@ def main(folder=RESULTS / "million_pairs", names=None, batches=BATCHES):
         print(rows[-1], flush=True)
     record.table(rows)
     record.figure(chart(rows))
-    record.close(lowest=LOWEST, at_an_end=AT_AN_END)
+    bad = sum(n for row in rows for key, n in row.items() if key.endswith("_finite"))
+    record.close(
+        finding=f"{bad:,} values or derivatives are not finite, of "
+        f"{sum(row['pairs'] for row in rows):,} pairs over {len(rows)} models.",
+        lowest=LOWEST,
+        at_an_end=AT_AN_END,
+    )
 
 
 if __name__ == "__main__":

@@ -287,7 +287,16 @@ def main(folder=RESULTS / "original_phong"):
     )
     record.figure(lit(), "spheres")
     record.figure(sheet(), "parameters")
-    record.close(shown_exponent=SHOWN)
+    worst = max(
+        (row for row in rows if row["model"] == "phong_original"),
+        key=lambda row: row["albedo_89.9deg"],
+    )
+    record.close(
+        finding=f"At 89.9 degrees the original model reflects up to "
+        f"{worst['albedo_89.9deg']:.3g} times the light that arrives, with exponent "
+        f"{worst['exponent']:g}.",
+        shown_exponent=SHOWN,
+    )
 
 
 if __name__ == "__main__":

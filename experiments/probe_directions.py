@@ -6,18 +6,19 @@ it can be seen whether they meet it.
 """
 
 import dataclasses
-import time
 
 import numpy as np
 
+from benchmarks.measure import use_one_core
 from brdffit import plan
 from brdffit.effects.quadrature import Regions, Rule, texels
 from brdffit.models import GGX, Lambert
-from brdffit.plots.style import COLOURS, DASHES, new_figure
+from brdffit.plots.style import COLOURS, DASHES, entitle, new_figure
 from brdffit.render import trace
 from brdffit.render.shading import compiled_shade
 from brdffit.scene import Environment, Orthographic, Scene, Sphere
 from experiments.record import RESULTS, Record, styled
+from experiments.tradeoff import Variant, measured as compared
 
 RESOLUTION = 14
 SKY = (128, 256)
@@ -51,17 +52,6 @@ def materials():
     return {"lambert": Lambert(albedo=[0.5] * 3)} | rough
 
 
-def shaded(brdf, scene, made, rule):
-    """Values of the sphere, and the least milliseconds of tracing and shading."""
-    made, taken = dataclasses.replace(made, sky=rule), []
-    for run in range(RUNS + 1):  # the first one compiles
-        begin = time.perf_counter()
-        value = np.asarray(compiled_shade(brdf, trace(scene, made)))
-        if run:
-            taken.append(1000 * (time.perf_counter() - begin))
-    return value, min(taken)
-
-
 def measured(resolution, numbers):
     """Rows of the two tables."""
     probe = Environment(sky(*SKY))
@@ -77,16 +67,21 @@ def measured(resolution, numbers):
         def error(value, truth=truth):
             return float(np.sqrt(np.mean((value - truth) ** 2) / np.mean(truth**2)))
 
-        found = {}
+        variants = []
         for number in numbers:
-            value, taken = shaded(brdf, scene, made, regions.rule(number))
-            found[number] = error(value)
+            rule = dataclasses.replace(made, sky=regions.rule(number))
+
+            def run(brdf=brdf, rule=rule):
+                return np.asarray(compiled_shade(brdf, trace(scene, rule)))
+
+            variants.append(Variant(str(number), run, error, "directions"))
+        for row, number in zip(compared(name, variants, RUNS), numbers, strict=True):
             rows.append(
                 {
                     "model": name,
                     "directions": number,
-                    "error": found[number],
-                    "milliseconds": taken,
+                    "error": row["error"],
+                    "milliseconds": 1000 * row["seconds"],
                 }
             )
         for tolerance in TOLERANCES:
@@ -105,8 +100,18 @@ def measured(resolution, numbers):
     return rows, picked
 
 
+def finding(picked):
+    """How often the plan keeps its word, and at what number of directions."""
+    met = [row["error"] <= row["tolerance"] for row in picked if row["said_to_be_met"]]
+    numbers = [row["directions"] for row in picked]
+    return (
+        f"The plan meets {sum(met)} of the {len(met)} tolerances that it says it "
+        f"meets, with {min(numbers):,} to {max(numbers):,} directions"
+    )
+
+
 @styled
-def chart(rows, picked):
+def chart(rows, picked, words):
     """Error against directions and against time."""
     figure = new_figure(7.6, 3.9)
     left, right = figure.subplots(1, 2, sharey=True)
@@ -126,13 +131,17 @@ def chart(rows, picked):
         )
     for tolerance in TOLERANCES:
         left.axhline(tolerance, color="#6b6b6b", linewidth=0.7)
-    left.set(xscale="log", yscale="log", xlabel="directions (dots: picked by a plan)")
-    left.set_ylabel("error of the image (relative RMS)")
-    right.set(xscale="log", xlabel="least time to trace and shade (ms)")
+    left.set(
+        xscale="log",
+        yscale="log",
+        xlabel="directions, log scale (dots: picked by a plan)",
+    )
+    left.set_ylabel("error of the image (relative RMS), log scale")
+    right.set(xscale="log", xlabel="time to trace and shade [ms], log scale")
     figure.legend(
         *left.get_legend_handles_labels(), loc="outside lower center", ncols=5
     )
-    figure.suptitle("A light probe by a number of directions, per roughness")
+    entitle(figure, words)
     return figure
 
 
@@ -142,9 +151,11 @@ def main(folder=RESULTS / "probe_directions", resolution=RESOLUTION, numbers=NUM
     rows, picked = measured(resolution, numbers)
     record.table(rows)
     record.table(picked, "picked")
-    record.figure(chart(rows, picked))
-    record.close(resolution=resolution, sky=list(SKY), runs=RUNS)
+    words = finding(picked)
+    record.figure(chart(rows, picked, words))
+    record.close(finding=f"{words}.", resolution=resolution, sky=list(SKY), turns=RUNS)
 
 
 if __name__ == "__main__":
+    use_one_core()
     main()

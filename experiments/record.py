@@ -1,6 +1,7 @@
 """What an experiment leaves behind: a table, figures, and how they came about."""
 
 import csv
+import hashlib
 import os
 import platform
 import subprocess
@@ -31,7 +32,7 @@ class Record:
     def __init__(self, folder, seed=None):
         """Start the clock."""
         self.folder, self.seed = Path(folder), seed
-        self.started = time.perf_counter()
+        self.started, self.written = time.perf_counter(), []
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def table(self, rows, name="table"):
@@ -39,7 +40,8 @@ class Record:
         texts = [
             {key: shown(x) for key, x in row.items() if key is not None} for row in rows
         ]
-        with open(self.folder / f"{name}.csv", "w", newline="") as file:
+        self.written.append(self.folder / f"{name}.csv")
+        with open(self.written[-1], "w", newline="") as file:
             writer = csv.DictWriter(file, texts[0], lineterminator="\n")
             writer.writeheader()
             writer.writerows(texts)
@@ -51,13 +53,19 @@ class Record:
     def figure(self, figure, name="figure"):
         """Write a figure as PDF and as PNG, which is small with 256 colours."""
         for path in style.save(figure, self.folder, name):
+            self.written.append(path)
             if path.suffix == ".png":
                 full = Image.open(path).convert("RGB")
                 few = full.quantize(palette=full.quantize(), dither=DITHER)
                 few.save(path, optimize=True)
 
+    def picture(self, image, name):
+        """Write an image of Pillow as PNG."""
+        self.written.append(self.folder / f"{name}.png")
+        image.save(self.written[-1], optimize=True)
+
     def close(self, **facts):
-        """Write `run.toml`: versions, machine, seed, commit and time taken."""
+        """Write `run.toml`: facts, versions, machine, seed, commit, time and files."""
         run = {
             "seconds": round(time.perf_counter() - self.started, 1),
             "commit": commit(),
@@ -68,8 +76,14 @@ class Record:
         }
         if self.seed is not None:
             run["seed"] = self.seed
+        run["sha256"] = {path.name: digest(path) for path in self.written}
         path = self.folder / "run.toml"
         path.write_text(tomli_w.dumps(facts | run), encoding="utf-8")
+
+
+def digest(path):
+    """SHA-256 of a file, by which it is known for what was written."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def shown(x):

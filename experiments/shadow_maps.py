@@ -3,19 +3,18 @@
 A sphere over a floor under a directional light and under a point light, with rays and
 with maps of growing resolution. The error is the root mean square of the difference
 from the image with rays, relative to it; the time is that of finding the visibility of
-all pixels, the least of five.
+all pixels, on one core.
 """
-
-import time
 
 import numpy as np
 
+from benchmarks.measure import use_one_core
 from brdffit import plan, render
 from brdffit.effects import shadows
 from brdffit.effects.lights import incident
 from brdffit.models import Lambert
 from brdffit.plots.spheres import plot_sphere
-from brdffit.plots.style import COLOURS, DASHES, new_figure
+from brdffit.plots.style import entitle, new_figure
 from brdffit.scene import (
     Directional,
     Geometry,
@@ -27,7 +26,15 @@ from brdffit.scene import (
     ShadowRays,
     Sphere,
 )
+from experiments.pareto import chart
 from experiments.record import RESULTS, Record, styled
+from experiments.tradeoff import (
+    Variant,
+    measured as compared,
+    root_mean_square,
+    rounded,
+    saved,
+)
 
 RESOLUTION = 192
 MAPS = (16, 32, 64, 128, 256, 512, 1024)
@@ -47,86 +54,84 @@ def scene(light, how, resolution):
     return Scene(camera, shapes, (light,), shadows=how)
 
 
-def seconds(view):
-    """Time of finding what every pixel sees of the light."""
+def visibility(view):
+    """What finds out what every pixel sees of the light."""
     geometry = Geometry(view.shapes)
     hits = geometry.first_hits(*view.camera.rays())
-    light = incident(view, hits.position, 3, None)
-    taken = []
-    for run in range(RUNS + 1):  # the first one compiles
-        begin = time.perf_counter()
-        shadows.visibility(geometry, geometry.first_hits, hits, light, view)
-        if run:
-            taken.append(time.perf_counter() - begin)
-    return min(taken)
+    light = incident(view.lights, hits.position, 3, None)
+    return lambda: shadows.visibility(geometry, geometry.first_hits, hits, light, view)
 
 
 def measured(resolution):
     """Images and rows of the table."""
     images, rows = {}, []
     for name, light in LIGHTS.items():
-        truth = None
+        variants = []
         for size in (0, *MAPS):
-            how = ShadowMap(size) if size else ShadowRays()
-            view = scene(light, how, resolution)
-            made = plan(view, GREY, with_=["shadows"])
-            image = render(GREY, view, made)
-            truth = image if truth is None else truth
-            error = np.sqrt(np.mean((image - truth) ** 2) / np.mean(truth**2))
-            images[name, size] = image
-            rows.append(
-                {
-                    "light": name,
-                    "method": "map" if size else "rays",
-                    "resolution": size or "",
-                    "error": float(error),
-                    "milliseconds": 1000 * seconds(view),
-                }
+            view = scene(light, ShadowMap(size) if size else ShadowRays(), resolution)
+            images[name, size] = render(GREY, view, plan(view, GREY, with_=["shadows"]))
+            wrong = root_mean_square(images[name, 0])(images[name, size])
+            variants.append(
+                Variant(
+                    f"map, {size} px" if size else "rays",
+                    visibility(view),
+                    lambda _, wrong=wrong: wrong,
+                    "map" if size else "rays",
+                )
             )
+        rows += compared(name, variants, RUNS)
         bare = plan(scene(light, ShadowRays(), resolution), GREY, without=["shadows"])
         images[name, None] = render(GREY, scene(light, ShadowRays(), resolution), bare)
     return images, rows
 
 
+def finding(rows):
+    """What the finest map leaves, and whether it is faster than rays, as a sentence."""
+    said = []
+    for name in LIGHTS:
+        rays, *maps = [row for row in rows if row["question"] == name]
+        best = min(maps, key=lambda row: row["error"])
+        said.append(
+            f"under a {name} light the {best['variant']} leaves "
+            f"{rounded(100 * best['error'])} % and {saved(best, rays)} of exact rays"
+        )
+    return "; ".join(said).capitalize()
+
+
 @styled
-def chart(images, rows):
-    """Pictures above, error against time below."""
-    figure = new_figure(7.6, 6.6)
-    above, below = figure.subfigures(2, 1, height_ratios=(1.25, 1))
-    grid = above.subplots(2, 4)
+def pictures(images):
+    """Shadows without, by rays and by two maps."""
+    figure = new_figure(7.6, 4.2)
+    grid = figure.subplots(2, 4)
     shown = {None: "no shadow", 0: "rays", SHOWN: f"map, {SHOWN}", 256: "map, 256"}
     for line, name in zip(grid, LIGHTS, strict=True):
         for axes, (size, title) in zip(line, shown.items(), strict=True):
             plot_sphere(axes, images[name, size], 0.8)
             axes.set_title(f"{name}: {title}")
-    against, time_axes = below.subplots(1, 2, sharey=True)
-    for n, name in enumerate(LIGHTS):
-        maps = [r for r in rows if r["light"] == name and r["method"] == "map"]
-        (exact,) = (r for r in rows if r["light"] == name and r["method"] == "rays")
-        look = {"color": COLOURS[n], "linestyle": DASHES[n], "marker": "o"}
-        error = [r["error"] for r in maps]
-        against.plot([r["resolution"] for r in maps], error, label=name, **look)
-        time_axes.plot([r["milliseconds"] for r in maps], error, **look)
-        time_axes.axvline(exact["milliseconds"], color=COLOURS[n], linestyle=DASHES[n])
-    against.set(xscale="log", yscale="log", xlabel="pixels along a side of the map")
-    against.set_xticks(MAPS, [str(size) for size in MAPS])
-    against.minorticks_off()
-    against.set_ylabel("error of the image (relative RMS)")
-    against.legend()
-    time_axes.set(xscale="log", yscale="log")
-    time_axes.set_xlabel("time to find visibility (ms); upright: exact rays")
-    figure.suptitle("A sphere over a floor: shadow maps against exact shadows")
+    entitle(figure, f"Shadows by rays and by maps of {SHOWN} and 256 pixels")
     return figure
 
 
 def main(folder=RESULTS / "shadow_maps", resolution=RESOLUTION):
-    """Write table and figure."""
+    """Write table, curve and pictures."""
     record = Record(folder)
     images, rows = measured(resolution)
     record.table(rows)
-    record.figure(chart(images, rows))
-    record.close(resolution=resolution, runs=RUNS)
+    words = finding(rows)
+    figure = chart(
+        rows,
+        {name: f"{name} light" for name in LIGHTS},
+        words,
+        unit="ms",
+        error="error of the image (relative RMS)",
+        time_of="finding visibility",
+        panel=(4.2, 3.3),
+    )
+    record.figure(figure)
+    record.figure(pictures(images), "pictures")
+    record.close(finding=f"{words}.", resolution=resolution, turns=RUNS)
 
 
 if __name__ == "__main__":
+    use_one_core()
     main()

@@ -16,6 +16,10 @@ What is found is counted: by model in `table.csv`, by pair of directions in
 normal, at the mirror direction (an arc cosine of 1, an azimuth of nothing), on the
 horizon and with a power of 0; values of narrow lobes (1 - cos^2 in a few digits) and of
 grazing directions (an arc cosine near a right angle). Ours loses none.
+
+    python -m experiments.stability [--full] [MODEL ...]
+
+All models take 20 minutes, with `--full`; without it two of them are judged.
 """
 
 import itertools
@@ -35,6 +39,7 @@ from experiments import textbook
 from experiments.hard_cases import SKIPPED, cases, directions, settings
 from experiments.record import RESULTS, Record, styled
 
+SOME = ("phong", "oren_nayar")
 TRUTH = Path(__file__).parent / "hard_cases_truth.npz"
 RELATIVE = 0.01
 RATIO = 20  # to the effect of rounding
@@ -341,4 +346,8 @@ def main(folder=RESULTS / "stability", names=None):
 
 
 if __name__ == "__main__":
-    main(names=sys.argv[1:])
+    names = [word for word in sys.argv[1:] if word != "--full"]
+    if "--full" in sys.argv:
+        main(RESULTS / "stability" / "full", names)
+    else:
+        main(names=names or SOME)

@@ -18,11 +18,11 @@ def demo(
     out: Annotated[Path, Parameter("--out")] = Path("brdffit-demo"),
     as_json: Json = False,
 ) -> int:
-    """Compare models on the bundled example and write results and pictures.
+    """Compare models on the bundled example; write results, pictures and a report.
 
     Takes less than a minute and opens nothing.
 
     Args:
-        out: Folder for results and pictures. [brdffit-demo]
+        out: Folder for results, pictures and report.html. [brdffit-demo]
     """
-    return compare(EXAMPLE, models=MODELS, out=out, as_json=as_json)
+    return compare(EXAMPLE, models=MODELS, out=out, report=True, as_json=as_json)

@@ -46,14 +46,16 @@ def plan(
     if given and model is None:
         raise ValueError("Option --set needs the model whose parameters it sets.")
     brdf = saved_or_named(model, given, view.channels) if model else None
-    made = brdffit.plan(
-        view,
-        brdf,
-        tolerance=TOLERANCE if tolerance is None else tolerance,
-        with_=with_,
-        without=without,
-        within=within,
-    )
+    with console.progress(1) as step:
+        step("planning")
+        made = brdffit.plan(
+            view,
+            brdf,
+            tolerance=TOLERANCE if tolerance is None else tolerance,
+            with_=with_,
+            without=without,
+            within=within,
+        )
     if as_json:
         console.print_json(description(made))
         return

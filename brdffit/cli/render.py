@@ -53,14 +53,17 @@ def render(
     brdf = saved_or_named(source, assignments(settings, "--set"))
     view = scene_or_sphere(scene, lights, resolution)
     material = description(brdf)
-    plan = brdffit.plan(
-        view,
-        brdf,
-        tolerance=TOLERANCE if tolerance is None else tolerance,
-        with_=with_,
-        without=without,
-    )
-    image = brdffit.render(brdf, view, plan)
+    with console.progress(2) as step:
+        step("planning")
+        plan = brdffit.plan(
+            view,
+            brdf,
+            tolerance=TOLERANCE if tolerance is None else tolerance,
+            with_=with_,
+            without=without,
+        )
+        step("rendering")
+        image = brdffit.render(brdf, view, plan)
     out.parent.mkdir(parents=True, exist_ok=True)
     sphere.save_image(image, view, out, provenance=material)
     written = [out, *map(out.with_suffix, (".toml", ".png"))]

@@ -16,7 +16,7 @@ def decide(view: View) -> Decision:
     if not scene.ambient.any():
         return not_called_for(NAME, "no ambient light has radiance")
     hits = view.hits
-    light = incident(scene, hits.position, view.channels, view.coarse_sky)
+    light = incident(scene.lights, hits.position, view.channels, view.coarse_sky)
     direct = irradiance(light, hits.normal).sum(axis=1) / np.pi
     ambient = np.broadcast_to(scene.ambient, direct.shape)
     return view.judged(

@@ -20,7 +20,7 @@ def decide(view: View) -> Decision:
     if all(np.ptp(height.map.pixels[..., 0]) == 0 for height in maps):
         return not_called_for(NAME, "every height map is level")
     hits = view.hits
-    light = incident(view.scene, hits.position, view.channels, view.coarse_sky)
+    light = incident(view.scene.lights, hits.position, view.channels, view.coarse_sky)
     flat = irradiance(light, hits.normal).sum(axis=1)
     tilted = irradiance(light, normals(view.geometry, hits)).sum(axis=1)
     return view.judged(

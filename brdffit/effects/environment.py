@@ -55,7 +55,9 @@ def _share(view: View) -> float:
     if len(hits.ray) < len(view.rays[0]) or smooth_shapes(scene.shapes):
         return 1.0
     both, others = (
-        irradiance(incident(scene, hits.position, view.channels, sky), hits.normal)
+        irradiance(
+            incident(scene.lights, hits.position, view.channels, sky), hits.normal
+        )
         for sky in (view.coarse_sky, None)
     )
     whole = both.sum(axis=1)

@@ -44,15 +44,20 @@ def from_point(light: Point, position, channels: int, same) -> tuple:
     """Directions ``(N, 1, 3)``, irradiance ``(N, 1, C)`` and distance ``(N, 1)``.
 
     The irradiance is ``intensity / distance^2``; with a point ``same``, that of this
-    point everywhere.
+    point everywhere. Positions may be of numpy or of JAX.
     """
-    away = light.position - position
-    distance = np.linalg.norm(away, axis=1)
-    safe = np.where(distance > 0, distance, 1.0)
+    xp = position.__array_namespace__()
+    away = light.position[None] - position
+    distance = xp.sqrt((away * away).sum(axis=1))
+    safe = xp.where(distance > 0, distance, 1.0)
     towards = away / safe[:, None]
     if same is None:
-        square = np.where(distance > 0, safe * safe, np.inf)
+        square = xp.where(distance > 0, safe * safe, np.inf)
     else:
-        square = np.full(len(away), np.sum((light.position - same) ** 2))
-    intensity = np.broadcast_to(light.intensity, channels)
-    return towards[:, None], (intensity / square[:, None])[:, None], distance[:, None]
+        square = xp.sum((light.position - same) ** 2) + 0 * distance
+    intensity = xp.broadcast_to(light.intensity, channels)
+    return (
+        towards[:, None],
+        (intensity[None] / square[:, None])[:, None],
+        distance[:, None],
+    )

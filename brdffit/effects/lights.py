@@ -1,5 +1,6 @@
 """What light comes towards a point before anything stands in its way."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -7,7 +8,9 @@ from jaxtyping import Float
 
 from brdffit.effects import falloff
 from brdffit.effects.quadrature import Rule
-from brdffit.scene import Directional, Environment, Point, Scene
+from brdffit.scene import Directional, Environment, Point
+from brdffit.scene.lights import Light
+from brdffit.types import AnyArray
 
 Vectors = Float[np.ndarray, "n 3"]
 
@@ -21,35 +24,37 @@ class Incident(NamedTuple):
         distance: To the light, infinite for what is not a point.
     """
 
-    towards: Float[np.ndarray, "point light 3"]
-    irradiance: Float[np.ndarray, "point light channel"]
-    distance: Float[np.ndarray, "point light"]
+    towards: Float[AnyArray, "point light 3"]
+    irradiance: Float[AnyArray, "point light channel"]
+    distance: Float[AnyArray, "point light"]
 
 
 def incident(
-    scene: Scene,
-    position: Vectors,
+    lights: Sequence[Light],
+    position: Float[AnyArray, "n 3"],
     channels: int,
     sky: Rule | None,
-    middle: np.ndarray | None = None,
+    middle: AnyArray | None = None,
 ) -> Incident:
     """Light at points of a scene: of each light in turn, the probe's in a row.
 
     Args:
-        scene: Its lights; ambient light comes from no direction and is not among them.
-        position: Points in the world.
+        lights: Those of the scene; ambient light comes from no direction and is left
+            out.
+        position: Points in the world, of numpy or of JAX.
         channels: Number of channels of the image.
         sky: Directions of the light probe, or None to leave it out.
         middle: Point as far as which all are from point lights, or None where the
             light of each falls off with its own distance.
     """
+    xp = position.__array_namespace__()
     parts = []
-    for light in scene.lights:
+    for light in lights:
         if isinstance(light, Directional):
             parts.append(
                 Incident(
                     light.direction[None, None],
-                    np.broadcast_to(light.irradiance, channels)[None, None],
+                    xp.broadcast_to(light.irradiance, channels)[None, None],
                     np.full((1, 1), np.inf),
                 )
             )
@@ -76,11 +81,11 @@ def incident(
         return parts[0]
     count = max(len(part.distance) for part in parts)
     wide = [
-        [np.broadcast_to(array, (count, *array.shape[1:])) for array in part]
+        [xp.broadcast_to(array, (count, *array.shape[1:])) for array in part]
         for part in parts
     ]
     return Incident(
-        *(np.concatenate(arrays, axis=1) for arrays in zip(*wide, strict=True))
+        *(xp.concatenate(arrays, axis=1) for arrays in zip(*wide, strict=True))
     )
 
 

@@ -43,7 +43,7 @@ def decide(view: View) -> Decision:
     if scene.probe is not None:
         some = np.linspace(0, len(hits.ray) - 1, min(len(hits.ray), PROBE_POINTS))
         hits = hits.take(np.unique(some.astype(int)))
-    light = incident(scene, hits.position, view.channels, view.coarse_sky)
+    light = incident(scene.lights, hits.position, view.channels, view.coarse_sky)
     each = irradiance(light, hits.normal)
     seen = by_rays(view.geometry, view.geometry.first_hits, hits, light)
     dark = ((1 - seen)[..., None] * each).sum(axis=1)

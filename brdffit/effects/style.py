@@ -44,8 +44,7 @@ def tones(
     """
     lights = [s for s in scene.lights if isinstance(s, Directional | Point)]
     channels = diffuse.shape[1]
-    first = Scene(scene.camera, scene.shapes, lights[:1])
-    towards = incident(first, hits.position, channels, sky=None).towards
+    towards = incident(lights[:1], hits.position, channels, sky=None).towards
     towards = np.broadcast_to(towards[:, 0], normal.shape)
     c = np.einsum("nk,nk->n", normal, towards)
     mix = (1 + c) / 2

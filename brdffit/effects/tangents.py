@@ -1,17 +1,22 @@
 """Tangent fields: which way the grooves of an anisotropic surface run."""
 
-from functools import partial
-
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array
 
 from brdffit import numerics
 from brdffit.effects.decision import Decision, View, not_called_for, operations
-from brdffit.geometry import TANGENTS, any_tangent, direction, shading_frame
+from brdffit.geometry import (
+    TANGENTS,
+    any_tangent,
+    cross,
+    direction,
+    shading_frame,
+    to_frame,
+)
 from brdffit.models.base import AbstractBRDF
-from brdffit.scene import Scene
 
 NAME = "tangents"
 PAIRS = 64  # of directions at which anisotropy is measured
@@ -72,27 +77,29 @@ def _turned(brdf: AbstractBRDF) -> jax.Array:
     return numerics.sqrt(numerics.divide(jnp.sum((here - there) ** 2), total))
 
 
-def to_local(normal, to_viewer, towards, scene: Scene, on: bool):
-    """Directions to the viewer ``(N, 3)`` and to all lights ``(N, L, 3)``, local.
+def to_local(
+    normal, to_viewer, towards, field: str | None
+) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
+    """Components of local directions to the viewer ``(N,)`` and lights ``(N, L)``.
 
-    Without the effect the tangent is any direction perpendicular to the normal.
+    Args:
+        normal: The three components ``(N,)`` of unit normals in the world.
+        to_viewer: Unit directions ``(N, 3)``.
+        towards: Unit directions ``(N, L, 3)``, or ``(1, L, 3)`` where all are alike.
+        field: Name of the field of tangents; None to take any direction that is
+            perpendicular to the normal.
     """
-    with jax.enable_x64(True):
-        local = _to_local(normal, to_viewer, towards, scene.tangents if on else "")
-        wo, wi = (np.asarray(array) for array in local)
-    return wo, wi
 
-
-@partial(jax.jit, static_argnames="field")
-def _to_local(normal, to_viewer, towards, field):
     def at(normal, to_viewer, towards):
         tangent = any_tangent(normal)
-        if field:
-            along = TANGENTS[field](normal)
+        frame = tangent, cross(normal, tangent), normal
+        if field is not None:
+            along = TANGENTS[field](jnp.stack(normal))
             lost = jnp.all(along == 0)  # on the axis of the field
-            tangent = jnp.where(lost, tangent, along)
-        frame = shading_frame(normal, tangent)
-        return frame @ to_viewer, jnp.matmul(towards, frame.T)
+            grooved = shading_frame(normal, along)
+            plain = jnp.stack([jnp.stack(axis) for axis in frame])
+            frame = jnp.where(lost, plain, grooved)
+        return to_frame(frame, to_viewer), jax.vmap(to_frame, (None, 0))(frame, towards)
 
     same = towards.shape[0] == 1
     return jax.vmap(at, in_axes=(0, 0, None if same else 0))(

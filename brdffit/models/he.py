@@ -91,6 +91,7 @@ class He(AbstractBRDF):
 
     reciprocal: ClassVar[bool] = True
     energy_conserving: ClassVar[bool] = False
+    lobe = staticmethod(diffraction.scattering_lobe)
 
     def evaluate(self, wi: Direction, wo: Direction) -> Spectrum:
         wh = bisector(wi, wo)
@@ -100,9 +101,7 @@ class He(AbstractBRDF):
         width = jnp.pi * self.tau
         width /= numerics.norm_of(self.wavelengths, self.path(wi, wo))
         width *= width
-        lobe = jax.vmap(diffraction.scattering_lobe)(
-            self.phase(wi, wo), width * (x * x + y * y)
-        )
+        lobe = jax.vmap(self.lobe)(self.phase(wi, wo), width * (x * x + y * y))
         g = length * (length / z)
         shadowing = self.shadowing(wi) * self.shadowing(wo)
         scattered = f * (g * g * shadowing) * (width / 4) * lobe

@@ -5,6 +5,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patheffects import Normal, Stroke
+from matplotlib.ticker import NullFormatter, StrMethodFormatter
 
 from brdffit.plots.plane import polar
 from brdffit.plots.style import MUTED, entitle, new_figure, styled
@@ -14,6 +16,7 @@ from brdffit.types import Vectors
 
 CELLS = 45  # across a panel
 RINGS = (30, 60, 90)  # degrees
+DECADE = 10  # samples in a cell, below which the scale names its numbers
 MOST = 2_000_000  # samples that are counted
 
 
@@ -50,6 +53,10 @@ def coverage_figure(data: Measurement | Samples) -> Figure:
         cells.set_norm(LogNorm(1, top))
     bar = figure.colorbar(drawn[-1], ax=[light, viewer, angles], shrink=0.8)
     bar.set_label("samples in a cell")
+    bar.ax.yaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
+    bar.ax.yaxis.set_minor_formatter(NullFormatter())
+    if top < DECADE:
+        bar.set_ticks(sorted({1, 2, 5, int(top)} & set(range(int(top) + 1))))
     entitle(figure, f"{samples.name}: directions of {len(samples)} samples")
     return figure
 
@@ -78,6 +85,7 @@ def plot_hemisphere(axes: Axes, w: Vectors, title: str) -> PolyCollection:
             color=MUTED,
             ha="center",
             va="top",
+            path_effects=[Stroke(linewidth=2.5, foreground="white"), Normal()],
         )
     axes.annotate(r"$\phi = 0$", (1.02, 0), size=7, color=MUTED, va="center")
     axes.set(aspect="equal", xlim=(-1.05, 1.3), ylim=(-1.2, 1.05), title=title)

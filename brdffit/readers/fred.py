@@ -112,7 +112,7 @@ def read_blocks(
 def refuse_cut(path: Path, starts: list[int], scattered: np.ndarray) -> None:
     """Refuse a last block that stops short of the polar angle where all others end."""
     *others, last = scattered[[*(start - 1 for start in starts[1:]), -1], 0]
-    if others and np.ptp(others) == 0 and last < others[0]:
+    if len(set(others)) == 1 and last < others[0]:
         raise ValueError(
             f"FRED file `{path}` is cut off: its last block ends at polar angle "
             f"{last:g}, all others at {others[0]:g}."

@@ -4,15 +4,19 @@ What a pixel sees and how much light falls there does not depend on the material
 is worked out once, in double precision, before anything is shaded or fitted.
 """
 
+import dataclasses
 from collections.abc import Callable
 from functools import partial
 
+import jax
 import numpy as np
 
-from brdffit.effects import Plan, ambient, bump, cut_out, shadows, tangents
+from brdffit.effects import Plan, ambient, bump, cut_out, shadows
 from brdffit.effects.lights import Incident, incident
 from brdffit.effects.plan import plan_for_tracing
 from brdffit.models.base import RGB
+from brdffit.render import plain
+from brdffit.render.weights import weighted
 from brdffit.samples import Pixels, Samples, default_channels
 from brdffit.scene import Geometry, Hits, Mesh, Scene
 from brdffit.types import Values, Vectors
@@ -45,10 +49,29 @@ def trace(
             "out of the scene, or leave it out of the plan."
         )
     geometry = Geometry(scene.shapes)
+    own = np.array([shape.material is not None for shape in scene.shapes])
+    if plain.is_plain(scene, geometry, plan):
+        return _of_blocks(scene, geometry, plan, channels, own)
     hits = meeting(geometry, plan)(*scene.camera.rays())
-    own = [shape.material is not None for shape in scene.shapes]
-    hits = hits.take(~np.array(own)[hits.shape])
+    hits = hits.take(~own[hits.shape])
     return lit(scene, geometry, hits, plan, channels)
+
+
+def _of_blocks(scene, geometry, plan, channels: int, own: np.ndarray) -> Samples:
+    """Samples of a plain scene, without pixels that see nothing or ``own`` shapes."""
+    parts: dict[int, Samples] = {}
+
+    def keep(block: plain.Block) -> None:
+        kept = np.flatnonzero((block.shape >= 0) & ~own[block.shape])
+        where = _pixels(kept + block.pixels.start, scene)
+        parts[block.pixels.start] = dataclasses.replace(
+            jax.tree.map(lambda array: np.asarray(array)[kept], block.samples),
+            pixels=where,
+        )
+
+    plain.for_each_block(scene, geometry, plan, channels, keep)
+    whole = [parts[start] for start in sorted(parts)]
+    return jax.tree.map(lambda *arrays: np.concatenate(arrays), *whole)
 
 
 def meeting(geometry: Geometry, plan: Plan) -> Callable[..., Hits]:
@@ -68,7 +91,7 @@ def lit(
     the point lies in shadow.
     """
     normal = bump.normals(geometry, hits) if plan.on("bump") else hits.normal
-    light = incident(scene, hits.position, channels, plan.sky, plan.middle)
+    light = incident(scene.lights, hits.position, channels, plan.sky, plan.middle)
     reach = None
     if plan.on("shadows"):
         meet = meeting(geometry, plan)
@@ -77,11 +100,9 @@ def lit(
         isinstance(shape, Mesh) and shape.smooth for shape in scene.shapes
     ):
         reach = shadows.above_horizon(hits, light)
-    row, column = np.divmod(hits.ray, scene.camera.shape[1])
-    pixels = Pixels(np.zeros_like(row), row, column, (1, *scene.camera.shape))
     glow = None
     if plan.on("ambient"):
-        glow = ambient.received(scene, len(row), channels)
+        glow = ambient.received(scene, len(hits.ray), channels)
     return _samples(
         normal,
         -hits.direction,
@@ -89,7 +110,7 @@ def lit(
         scene,
         plan.on("tangents"),
         channels,
-        pixels,
+        _pixels(hits.ray, scene),
         reach,
         glow,
     )
@@ -119,8 +140,14 @@ def local_samples(
         ValueError: The lights have another number of channels.
     """
     channels = scene.channels_for(channels or scene.channels or RGB)
-    light = incident(scene, np.zeros((1, 3)), channels, sky=None)
+    light = incident(scene.lights, np.zeros((1, 3)), channels, sky=None)
     return _samples(normal, to_viewer, light, scene, True, channels, pixels)
+
+
+def _pixels(number: np.ndarray, scene: Scene) -> Pixels:
+    """Where pixels lie that are counted row by row."""
+    row, column = np.divmod(number, scene.camera.shape[1])
+    return Pixels(np.zeros_like(row), row, column, (1, *scene.camera.shape))
 
 
 def _samples(
@@ -135,17 +162,24 @@ def _samples(
     glow: Values | None = None,
 ) -> Samples:
     """Directions and weights in the frame of each point."""
-    wo, wi = tangents.to_local(normal, to_viewer, light.towards, scene, with_tangents)
-    cos_i = np.maximum(wi[..., 2:], 0)
-    weight = cos_i * (light.irradiance * scene.exposure)
-    if reach is not None:
-        weight *= reach[..., None]
+    if reach is None:
+        reach = np.ones((1, 1))
+    field = scene.tangents if with_tangents else None
+    with jax.enable_x64(True):
+        components = tuple(normal.T)
+        arrays = _compiled(
+            components, to_viewer, light, reach, scene.exposure, field=field
+        )
+        wi, wo, weight = map(np.asarray, arrays)
     return Samples(
-        wi=wi.astype(np.float32),
-        wo=wo.astype(np.float32),
-        weight=weight.astype(np.float32),
+        wi=wi,
+        wo=wo,
+        weight=weight,
         cosine=np.ones(len(wo), np.float32),
         channels=default_channels(channels),
         pixels=pixels,
         ambient=glow,
     )
+
+
+_compiled = jax.jit(weighted, static_argnames="field")

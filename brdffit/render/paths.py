@@ -101,7 +101,7 @@ def trace_paths(
         hits, way = ends.hits, ends.surface
         sky, away, way_to_sky = ends.pixel, ends.direction, ends.sky
     parts = []
-    for key, shapes in _by_material(scene).items():
+    for key, shapes in by_material(scene).items():
         here = np.flatnonzero(np.isin(hits.shape, shapes))
         if key in smooth or not len(here):
             continue
@@ -118,7 +118,7 @@ def trace_paths(
     return Traced(tuple(parts), scene.camera.shape[0] * scene.camera.shape[1], channels)
 
 
-def _by_material(scene: Scene) -> dict[int, list[int]]:
+def by_material(scene: Scene) -> dict[int, list[int]]:
     """Shapes that share a material, by its key."""
     found: dict[int, list[int]] = {}
     for index, shape in enumerate(scene.shapes):

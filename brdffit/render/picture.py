@@ -8,8 +8,16 @@ import numpy as np
 from brdffit.effects import Plan, bump, style
 from brdffit.effects.plan import plan_for_tracing
 from brdffit.models.base import AbstractBRDF
+from brdffit.render import plain
 from brdffit.render.geometry_pass import meeting
-from brdffit.render.paths import Materials, Part, materials_of, part_values, trace_paths
+from brdffit.render.paths import (
+    Materials,
+    Part,
+    by_material,
+    materials_of,
+    part_values,
+    trace_paths,
+)
 from brdffit.render.shading import compiled_shade
 from brdffit.scene import Geometry, Scene
 from brdffit.types import Image
@@ -42,6 +50,9 @@ def render(brdf: AbstractBRDF, scene: Scene, plan: Plan | None = None) -> Image:
     at_once = max(PAIRS // max(plan.directions, 1), 1)
     materials = materials_of(scene, brdf)
     geometry = Geometry(scene.shapes)
+    if plain.is_plain(scene, geometry, plan):
+        _shade_blocks(canvas, materials, scene, geometry, plan)
+        return canvas.reshape(rows, columns, channels)
     single = len(materials) == 1 and not plan.directions
     portion = None if single else _power_of_two(at_once)
     for start in range(0, rows * columns, at_once):
@@ -50,6 +61,24 @@ def render(brdf: AbstractBRDF, scene: Scene, plan: Plan | None = None) -> Image:
         for part in traced.parts:
             _add(canvas, part, _values(materials, part))
     return canvas.reshape(rows, columns, channels)
+
+
+def _shade_blocks(
+    canvas: np.ndarray, materials: Materials, scene, geometry, plan
+) -> None:
+    """Fill in what the pixels of a plain scene see."""
+    members = by_material(scene)
+
+    def shade(block: plain.Block) -> None:
+        part = canvas[block.pixels]
+        for key, shapes in members.items():
+            brdf = materials[key]
+            mine = True if len(members) == 1 else np.isin(block.shape, shapes)[:, None]
+            if np.any(mine) and isinstance(brdf, AbstractBRDF):
+                values = np.asarray(compiled_shade(brdf, block.samples))
+                np.copyto(part, values[: len(part)], where=mine)
+
+    plain.for_each_block(scene, geometry, plan, canvas.shape[1], shade)
 
 
 def _power_of_two(number: int) -> int:

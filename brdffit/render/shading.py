@@ -1,9 +1,9 @@
 """Shading: the value of every sample for a BRDF, the only part that a fit repeats."""
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 
+from brdffit.compiled import compiled
 from brdffit.models.base import AbstractBRDF
 from brdffit.samples import Samples
 from brdffit.types import Values
@@ -25,4 +25,4 @@ def shade(brdf: AbstractBRDF, samples: Samples) -> Values:
     return values + samples.ambient * brdf.diffuse_reflectance[None]
 
 
-compiled_shade = eqx.filter_jit(shade)
+compiled_shade = compiled(shade)

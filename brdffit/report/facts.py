@@ -40,7 +40,8 @@ def facts_of_data(
     found = summary(data, evaluate, folded)
     facts = [("Name", found.name)]
     if source and reader:
-        facts += [("File", source.name), ("Format", title(reader))]
+        kind = "Folder" if source.is_dir() else "File"
+        facts += [(kind, source.name), ("Format", title(reader))]
     facts += [
         ("Samples", _samples(found)),
         ("Channels", channels_in_words(found.channels)),

@@ -2,7 +2,7 @@
 
 import re
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
@@ -153,11 +153,13 @@ def environment() -> Environment:
     return templates
 
 
-def code(sentence: Any) -> Markup:
-    """A sentence in which words between backticks are code."""
-    parts = str(escape(sentence)).split("`")
-    parts[1::2] = [f"<code>{breakable(Markup(part))}</code>" for part in parts[1::2]]
-    return Markup("".join(parts))
+def code(sentence: str, broken: bool = False) -> Markup:
+    """A sentence in which words between backticks are code, ``broken`` if need be."""
+    parts = sentence.split("`")
+    words = [breakable(part) if broken else escape(part) for part in parts[1::2]]
+    marked: list[Markup] = [escape(part) for part in parts]
+    marked[1::2] = [Markup("<code>{}</code>").format(word) for word in words]
+    return Markup("").join(marked)
 
 
 def breakable(name: str) -> Markup:

@@ -6,13 +6,13 @@ one, models are compared with the best, and the best with the next.
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
 from jaxtyping import Bool
 from matplotlib.colors import to_hex, to_rgba
-from scipy.ndimage import distance_transform_edt
+from scipy.ndimage import binary_closing, distance_transform_edt
 
 from brdffit.models import AbstractBRDF
 from brdffit.plots.spheres import exposure_of, frame_image, limit_of, on_screen
@@ -29,8 +29,23 @@ MEASURED = "measured"
 FRAMES = 4  # most photographs
 RESOLUTION = 320  # rows and columns of rendered spheres
 LARGEST = 512  # rows or columns of a photograph, beyond which every other is left out
+GAP = 4  # pixels between samples that are filled
 ROUND = 0.97  # share of the pixels that must agree with a disc
 STOPS = 9  # colours of the scale of differences
+
+
+class Surface(NamedTuple):
+    """Which pixels of a frame are shown.
+
+    Attributes:
+        nearest: Row and column of the sample that each pixel takes its value from.
+        shown: False where a pixel stays empty.
+        disc: Whether it is a disc that fills the frame.
+    """
+
+    nearest: tuple[np.ndarray, ...]
+    shown: Bool[np.ndarray, "row column"]
+    disc: bool
 
 
 def sphere_album(
@@ -66,21 +81,25 @@ def sphere_album(
     }
     limit = limit_of(difference.values()) if difference else 1.0
     reference = values.get(MEASURED, values[next(iter(models))])
-    outwards = _outwards(np.isfinite(frame_image(samples, used * 1.0, 0)[..., 0]))
+    exposure = exposure_of(reference[used])
+    seen = spread(range(samples.pixels.shape[0]), FRAMES)
+    one = np.ones((len(samples), 1))
+    surfaces = [
+        _surface(np.isfinite(frame_image(samples, one, f)[..., 0])) for f in seen
+    ]
     frames = []
-    for frame in spread(range(samples.pixels.shape[0]), FRAMES):
-        here = (np.asarray(samples.pixels.frame) == frame)[:, None]
-        exposure = exposure_of(reference[used & here])
+    for frame, surface in zip(seen, surfaces, strict=True):
 
-        def shown(seen: Values, frame: int = frame) -> Image:
-            image = frame_image(samples, seen, frame)
-            return _thinned(image[outwards] if outwards else image)
+        def shown(
+            values: Values, frame: int = frame, surface: Surface = surface
+        ) -> Image:
+            image = frame_image(samples, values, frame)[surface.nearest]
+            return _thinned(np.where(surface.shown[..., None], image, np.nan))
 
         unused = shown((~used).astype(float))
         frames.append(
             {
                 "title": f"light {frame + 1}",
-                "exposure": float(f"{exposure:.3g}"),
                 "pictures": {
                     name: embed_pixels(on_screen(shown(value), exposure))
                     for name, value in values.items()
@@ -95,7 +114,8 @@ def sphere_album(
         "frames": frames,
         "against": against,
         "limit": float(f"{limit:.2g}"),
-        "round": outwards is not None,
+        "exposure": float(f"{exposure:.3g}"),
+        "round": all(surface.disc for surface in surfaces),
         "measured": samples.value is not None,
         "photographed": isinstance(data, Samples) and data.pixels is not None,
     }
@@ -138,22 +158,22 @@ def _coloured(difference: Image, limit: float, unused: Image) -> np.ndarray:
     return np.round(255 * colours).astype(np.uint8)
 
 
-def _outwards(
-    covered: Bool[np.ndarray, "row column"],
-) -> tuple[np.ndarray, ...] | None:
-    """Nearest covered pixel of each, by which a disc is continued beyond its edge.
+def _surface(covered: Bool[np.ndarray, "row column"]) -> Surface:
+    """What of a frame is shown, of which only some pixels may be samples.
 
-    The page then cuts a smooth circle. None where the picture shows no disc.
+    Gaps between samples are filled, and a disc is continued beyond its edge, where the
+    page cuts a smooth circle.
     """
+    closed = binary_closing(np.pad(covered, GAP), iterations=GAP)
+    shown = closed[GAP:-GAP, GAP:-GAP] | covered
     y, x = np.indices(covered.shape)
     rows, columns = covered.shape
     disc = np.hypot((2 * x + 1) / columns - 1, (2 * y + 1) / rows - 1) <= 1
-    if rows != columns or np.mean(disc == covered) < ROUND:
-        return None
+    whole = abs(rows - columns) < GAP and float(np.mean(disc == shown)) > ROUND
     nearest = distance_transform_edt(
         ~covered, return_distances=False, return_indices=True
     )
-    return tuple(np.asarray(nearest))
+    return Surface(tuple(np.asarray(nearest)), shown | whole, whole)
 
 
 def _thinned(image: Image) -> Image:

@@ -13,6 +13,7 @@ FEW = 0.25  # share of starts below which another, better minimum may have been 
 MANY = 0.05  # share of values left out that a reader should know of
 SMALL = 0.05  # share that is missing from all, of which digits are told
 NAMED = 3  # most models that a headline names
+CLOSE = 1.1  # ratio of errors below which a lead is narrow
 TENTHS = 9.95  # ratio of errors up to which tenths are told
 OVERWHELMING = 1000  # ratio of errors beyond which digits say nothing
 UNLIKELY = 1e-3  # probability of chi-square below which errors and model disagree
@@ -73,6 +74,8 @@ def verdict_on_comparison(
     ]
     numbers = [("held-out error", error)]
     headline = f"`{model}` {'fits best' if others else f'is off by {error}'}"
+    if beaten is not None and beaten[1].held_out < CLOSE * best.held_out:
+        headline += ", narrowly"
     if len(tied) > 1:
         named = listed([f"`{name}`" for name in tied])
         headline = f"{named if len(tied) <= NAMED else f'{len(tied)} models'} tie"
@@ -89,7 +92,7 @@ def verdict_on_comparison(
         lead = yardstick.percent(entry.held_out)
         behind = "The next model is" if len(tied) == 1 else "Clearly behind comes"
         times = _times(entry.held_out, best.held_out)
-        sentences.append(f"{behind} `{name}`, off by {lead}: {times} as much.")
+        sentences.append(f"{behind} `{name}`, off by {lead}: {times}.")
         numbers.append((f"next: {name}", lead))
     return Verdict(
         headline,
@@ -177,5 +180,7 @@ def _times(error: float, least: float) -> str:
     """How many times as large an error is."""
     ratio = error / least if least > 0 else math.inf
     if ratio > OVERWHELMING:
-        return f"more than {OVERWHELMING:,} times"
-    return f"{ratio:.1f} times" if ratio < TENTHS else f"{ratio:.0f} times"
+        return f"more than {OVERWHELMING:,} times as much"
+    if ratio < CLOSE:
+        return f"{100 * (ratio - 1):.1g}\N{NO-BREAK SPACE}% more"
+    return f"{ratio:.{1 if ratio < TENTHS else 0}f} times as much"

@@ -40,7 +40,7 @@ class Yardstick:
         if not math.isfinite(share):
             return "unknown"
         if share < LEAST:
-            return f"<\N{THIN SPACE}{LEAST}\N{NO-BREAK SPACE}%"
+            return f"<\N{NARROW NO-BREAK SPACE}{LEAST}\N{NO-BREAK SPACE}%"
         shown = f"{share:#.2g}".rstrip(".") if share < 99.5 else f"{share:.0f}"
         return f"{shown}\N{NO-BREAK SPACE}%"
 
@@ -49,7 +49,7 @@ class Yardstick:
         """What such a percentage says."""
         if self.relative:
             return "typical relative error of a value"
-        return "root mean square error, as a share of that of the data"
+        return "root mean square, relative to that of the data"
 
 
 def yardstick(name: str, samples: Samples) -> Yardstick:

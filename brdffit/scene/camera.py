@@ -5,6 +5,7 @@ the top of the image.
 """
 
 from functools import partial
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import numpy as np
@@ -21,6 +22,37 @@ ALL = slice(None)
 ORIGIN = (0.0, 0.0, 0.0)
 UP = (0.0, 1.0, 0.0)
 FAR = 1000.0  # where parallel rays start, before what they are to meet
+
+
+class Parallel(NamedTuple):
+    """Rays of one direction, with places of numpy or of JAX."""
+
+    middle: Any
+    right: Any
+    up: Any
+    forward: Any
+
+    def ray(self, x: Any, y: Any) -> tuple[Any, Any]:
+        """Origins and unit directions of rays through places ``(..., 1)``."""
+        origin = self.middle + x * self.right + y * self.up
+        xp = origin.__array_namespace__()
+        return origin, xp.broadcast_to(self.forward, origin.shape)
+
+
+class Pinhole(NamedTuple):
+    """Rays from one point, with places of numpy or of JAX."""
+
+    position: Any
+    right: Any
+    up: Any
+    forward: Any
+
+    def ray(self, x: Any, y: Any) -> tuple[Any, Any]:
+        """Origins and unit directions of rays through places ``(..., 1)``."""
+        away = self.forward + x * self.right + y * self.up
+        xp = away.__array_namespace__()
+        length = xp.sqrt((away * away).sum(axis=-1, keepdims=True))
+        return xp.broadcast_to(self.position, away.shape), away / length
 
 
 class Orthographic(eqx.Module):
@@ -60,16 +92,20 @@ class Orthographic(eqx.Module):
         """Rows and columns of the image."""
         return _shape(self.resolution)
 
+    @property
+    def lens(self) -> Parallel:
+        """From places in the image to rays."""
+        right, up = (self.height / 2 * axis for axis in _axes(self.towards, self.up))
+        middle = self.target + FAR * self.towards
+        return Parallel(middle, right, up, -self.towards)
+
     def rays(self, pixels: Some = ALL) -> tuple[Rays, Rays]:
         """Origin and unit direction of the ray of each pixel, or of some.
 
         Args:
             pixels: Which, counted row by row from the top left.
         """
-        right, up = _axes(self.towards, self.up)
-        x, y = (self.height / 2 * across for across in _plane(self.shape, pixels))
-        origin = self.target + FAR * self.towards + x * right + y * up
-        return origin, np.broadcast_to(-self.towards, origin.shape)
+        return _rays(self, pixels)
 
 
 class Perspective(eqx.Module):
@@ -123,34 +159,49 @@ class Perspective(eqx.Module):
         back = self.position - self.target
         return back / np.linalg.norm(back)
 
+    @property
+    def lens(self) -> Pinhole:
+        """From places in the image to rays."""
+        half = np.tan(np.radians(self.field_of_view) / 2)
+        right, up = (half * axis for axis in _axes(self._towards, self.up))
+        return Pinhole(self.position, right, up, -self._towards)
+
     def rays(self, pixels: Some = ALL) -> tuple[Rays, Rays]:
         """Origin and unit direction of the ray of each pixel, or of some.
 
         Args:
             pixels: Which, counted row by row from the top left.
         """
-        right, up = _axes(self._towards, self.up)
-        half = np.tan(np.radians(self.field_of_view) / 2)
-        x, y = (half * across for across in _plane(self.shape, pixels))
-        direction = x * right + y * up - self._towards
-        direction /= np.linalg.norm(direction, axis=1, keepdims=True)
-        return np.broadcast_to(self.position, direction.shape), direction
+        return _rays(self, pixels)
 
 
 Camera = Orthographic | Perspective
+
+
+def _rays(camera: Camera, pixels: Some) -> tuple[Rays, Rays]:
+    rows, columns = camera.shape
+    if isinstance(pixels, slice):
+        pixels = np.arange(*pixels.indices(rows * columns))
+    return camera.lens.ray(*places(camera.shape, pixels))
 
 
 def _shape(resolution: int | tuple[int, int]) -> tuple[int, int]:
     return resolution if isinstance(resolution, tuple) else (resolution, resolution)
 
 
-def _plane(shape: tuple[int, int], pixels: Some) -> tuple[np.ndarray, np.ndarray]:
-    """Place ``(pixel, 1)`` of pixel centres, up and down from -1 to 1, row by row."""
+def places(shape: tuple[Any, Any], pixels: Any) -> tuple[Any, Any]:
+    """Centres ``(..., 1)`` of pixels: x to the right, y from 1 at the top to -1.
+
+    Args:
+        shape: Rows and columns of the image.
+        pixels: Which, counted row by row; of numpy or of JAX.
+    """
     rows, columns = shape
-    if isinstance(pixels, slice):
-        pixels = np.arange(*pixels.indices(rows * columns))
-    row, column = np.divmod(pixels[:, None], columns)
-    return (2 * column + 1 - columns) / rows, -((2 * row + 1) / rows - 1)
+    xp = pixels.__array_namespace__()
+    row = xp.floor((pixels + 0.5) / columns)
+    column = pixels - row * columns
+    x, y = (2 * column + 1 - columns) / rows, 1 - (2 * row + 1) / rows
+    return x[..., None], y[..., None]
 
 
 def _axes(towards: Vector, up: Vector) -> tuple[Vector, Vector]:

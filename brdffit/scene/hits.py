@@ -11,6 +11,7 @@ from jaxtyping import Bool, Float, Int
 from brdffit.scene import embree
 from brdffit.scene.nearest import anything_before, nearest
 from brdffit.scene.shapes import Mesh, Plane, Shape, Sphere
+from brdffit.types import AnyArray
 
 Vectors = Float[np.ndarray, "n 3"]
 
@@ -57,6 +58,16 @@ class Hits(NamedTuple):
         return np.flatnonzero(~met)
 
 
+def least_distance(origin: Any) -> Any:
+    """Distance from which on rays ``(..., 3)`` meet something: rounding of a start.
+
+    Origins may be of numpy or of JAX.
+    """
+    xp = origin.__array_namespace__()
+    x, y, z = (abs(origin[..., axis]) for axis in range(3))
+    return LEAST * (1 + xp.maximum(xp.maximum(x, y), z))
+
+
 class Geometry:
     """Shapes as arrays, sorted by kind: spheres, planes, triangles, large meshes.
 
@@ -91,7 +102,7 @@ class Geometry:
 
     def first_hits(self, origin: Vectors, direction: Vectors) -> Hits:
         """What each ray meets first, beyond rounding of its start."""
-        least = LEAST * (1 + np.abs(origin).max(axis=1, initial=0.0))
+        least = least_distance(origin)
         found = nearest(self.groups, origin, direction, least, len(self.owner))
         distance, normal, weights = map(
             np.asarray, (found.distance, found.normal, found.weights)
@@ -131,12 +142,12 @@ class Geometry:
     def blocked(
         self,
         position: Vectors,
-        towards: Float[np.ndarray, "#point light 3"],
-        distance: Float[np.ndarray, "#point light"],
+        towards: Float[AnyArray, "#point light 3"],
+        distance: Float[AnyArray, "#point light"],
     ) -> Bool[np.ndarray, "point light"]:
         """Whether anything stands between points and lights; a first axis may be 1."""
-        least = LEAST * (1 + np.abs(position).max(axis=1, initial=0.0))
-        limit = distance * (1 - LEAST)
+        least = least_distance(position)
+        towards, limit = np.asarray(towards), np.asarray(distance) * (1 - LEAST)
         found = anything_before(
             self.groups, position, towards, limit, least, len(self.owner)
         )

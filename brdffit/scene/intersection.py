@@ -21,8 +21,10 @@ def sphere(
     centre: Direction,
     radius: Scalar,
     least: Scalar,
-) -> tuple[Scalar, Direction]:
+) -> tuple[Scalar, tuple[Scalar, ...]]:
     """Distance, and the outward normal at the point met, from outside or inside.
+
+    The normal is returned by components, so that no program has to interleave them.
 
     The discriminant comes from the point of the ray nearest to the centre, which loses
     no digits far away.
@@ -31,15 +33,16 @@ def sphere(
         E. Haines, J. Gunther, T. Akenine-Moeller, "Precision Improvements for
         Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7, eq. 5.
     """
-    start = origin - centre
+    start = [o - c for o, c in zip(origin, centre, strict=True)]
     along = -dot(start, direction)
-    nearest = start + along * direction
+    nearest = [s + along * d for s, d in zip(start, direction, strict=True)]
     half_chord = numerics.sqrt(radius * radius - dot(nearest, nearest))
     entering = along - half_chord > least
     step = jnp.where(entering, -half_chord, half_chord)
     distance = along + step
     hit = (half_chord > 0) & (distance > least)
-    normal = (nearest + step * direction) / radius
+    met = zip(nearest, direction, strict=True)
+    normal = tuple((n + step * d) / radius for n, d in met)
     return jnp.where(hit, distance, jnp.inf), normal
 
 

@@ -1,12 +1,13 @@
 """What rays meet first among spheres, planes and triangles, in blocks on the device."""
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from functools import partial
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Array, Bool, Float
 
 from brdffit.scene import intersection
 from brdffit.types import AnyArray
@@ -22,13 +23,13 @@ ROOM = 2**22  # most intersections at once
 class Meeting(NamedTuple):
     """What rays meet: distance (infinite for a miss), primitive, normal, weights.
 
-    The normal is the outward one; the weights are those of the second and the third
-    corner of a triangle.
+    The normal is the outward one, within JAX by components; the weights are those of
+    the second and the third corner of a triangle.
     """
 
     distance: AnyArray
     primitive: AnyArray
-    normal: AnyArray
+    normal: Any
     weights: AnyArray
 
 
@@ -100,53 +101,54 @@ def anything_before(
                 return np.pad(array[here], pad, mode="edge")
 
             arrays = (part(a) for a in (position, least, towards, limit))
-            found[here] = np.asarray(_any(groups, *arrays))[: size - short]
+            found[here] = np.asarray(_blocked(groups, *arrays))[: size - short]
     return found
 
 
-@jax.jit
-def _any(groups, position, least, towards, limit):
-    """Whether anything is met, for a block of points and all lights."""
+def any_of(groups, origin, direction, least, limit) -> Bool[Array, ""]:
+    """Whether one ray meets anything before a limit, within JAX."""
+    ray = origin, direction
+    met = [_DISTANCES[kind](ray, arrays, least) for kind, arrays in groups.items()]
+    return jnp.min(jnp.concatenate(met)) < limit
 
-    def one(origin, least, direction, limit):
-        ray = origin, direction
-        met = [_DISTANCES[k](ray, a, least) for k, a in groups.items()]
-        nearest = jnp.min(jnp.concatenate(met))
-        return nearest < limit
 
-    over_lights = jax.vmap(one, (None, None, 0, 0))
+def blocked(groups, position, least, towards, limit) -> Bool[Array, "point light"]:
+    """`anything_before` of points that fit at once, within JAX."""
 
     def alike(array):
         return None if array.shape[0] == 1 < position.shape[0] else 0
 
-    axes = (0, 0, alike(towards), alike(limit))
-    unwrapped = [
-        array[0] if axis is None else array
-        for array, axis in zip((towards, limit), axes[2:], strict=True)
-    ]
-    return jax.vmap(over_lights, axes)(position, least, *unwrapped)
+    over_lights = jax.vmap(partial(any_of, groups), (None, 0, None, 0))
+    axes = (0, alike(towards), 0, alike(limit))
+    towards, limit = (a[0] if alike(a) is None else a for a in (towards, limit))
+    return jax.vmap(over_lights, axes)(position, towards, least, limit)
+
+
+_blocked = jax.jit(blocked)
+
+
+def first_of(groups, origin, direction, least) -> Meeting:
+    """What one ray meets first among spheres, planes and triangles, within JAX."""
+    found, begin = None, 0
+    for kind, arrays in groups.items():
+        met = _KINDS[kind]((origin, direction), arrays, least)
+        met = met._replace(primitive=met.primitive + begin)
+        begin += len(arrays[0])
+        found = met if found is None else _nearer(found, met)
+    assert found is not None  # nobody asks without shapes
+    return found
 
 
 @jax.jit
-def _first(groups, origin, direction, least):
-    """What each ray of a block meets first among spheres, planes and triangles."""
-
-    def one(origin, direction, least):
-        ray = origin, direction
-        found, begin = None, 0
-        for kind, arrays in groups.items():
-            met = _KINDS[kind](ray, arrays, least)
-            met = met._replace(primitive=met.primitive + begin)
-            begin += len(arrays[0])
-            found = met if found is None else _nearer(found, met)
-        return found
-
-    return jax.vmap(one)(origin, direction, least)
+def _first(groups, origin, direction, least) -> Meeting:
+    """What each ray of a block meets first."""
+    met = jax.vmap(partial(first_of, groups))(origin, direction, least)
+    return met._replace(normal=jnp.stack(met.normal, axis=1))
 
 
 def _nearer(one: Meeting, other: Meeting) -> Meeting:
     nearer = other.distance < one.distance
-    return Meeting(*(jnp.where(nearer, b, a) for a, b in zip(one, other, strict=True)))
+    return jax.tree.map(lambda a, b: jnp.where(nearer, b, a), one, other)
 
 
 def _to_spheres(ray, arrays, least):
@@ -179,17 +181,15 @@ def _to_triangles(ray, arrays, least):
 def _spheres(ray, arrays, least) -> Meeting:
     distance, normal = _to_spheres(ray, arrays, least)
     which = jnp.argmin(distance) if len(distance) > 1 else 0
-    return Meeting(
-        distance[which], jnp.asarray(which, int), normal[which], jnp.zeros(2)
-    )
+    chosen = tuple(component[which] for component in normal)
+    return Meeting(distance[which], jnp.asarray(which, int), chosen, jnp.zeros(2))
 
 
 def _planes(ray, arrays, least) -> Meeting:
     distance = _to_planes(ray, arrays, least)
     which = jnp.argmin(distance) if len(distance) > 1 else 0
-    return Meeting(
-        distance[which], jnp.asarray(which, int), arrays[1][which], jnp.zeros(2)
-    )
+    normal = tuple(arrays[1][which])
+    return Meeting(distance[which], jnp.asarray(which, int), normal, jnp.zeros(2))
 
 
 def _triangles(ray, arrays, least) -> Meeting:
@@ -197,7 +197,8 @@ def _triangles(ray, arrays, least) -> Meeting:
     which = jnp.argmin(_to_triangles(ray, arrays, least))
     chosen = corners[which]
     distance, u, v = intersection.triangle(origin, direction, chosen, least)
-    return Meeting(distance, which, intersection.normal_of(chosen), jnp.stack([u, v]))
+    normal = tuple(intersection.normal_of(chosen))
+    return Meeting(distance, which, normal, jnp.stack([u, v]))
 
 
 _KINDS = {"Sphere": _spheres, "Plane": _planes, "Mesh": _triangles}

@@ -10,13 +10,16 @@ import numpy as np
 import pytest
 
 from benchmarks import (
+    absent,
     ceres,
     cold_start,
     gonio_fit,
     growth,
     growth_of_one,
     many_starts,
+    megapixels,
     merl_fit,
+    merl_load,
     plain,
     problems,
     sphere_fit,
@@ -175,3 +178,22 @@ def test_time_and_memory_of_one_size_are_measured(monkeypatch):
     assert found["seconds"] > 0
     assert found["data_mb"] == pytest.approx(1000 * 9 * 4 / 2**20, abs=1e-3)
     assert found["peak_mb"] > 1
+
+
+def test_effects_that_are_absent_are_timed_for_all_scenes(tmp_path):
+    absent.main(tmp_path, turns=1, resolution=8)
+    assert [row["scene"] for row in table(tmp_path)[::3]] == list(absent.SCENES)
+    assert all(float(row["ratio"]) > 0 for row in table(tmp_path))
+
+
+def test_spheres_are_rendered_beside_mitsuba(tmp_path):
+    pytest.importorskip("mitsuba")
+    megapixels.main(tmp_path, turns=1, resolution=16)
+    speeds = [float(row["megapixels_per_s"]) for row in table(tmp_path)]
+    assert len(speeds) == 9
+    assert min(speeds) > 0
+
+
+def test_a_merl_file_is_read_in_bounded_memory(tmp_path):
+    rows = merl_load.main(tmp_path, turns=1, tasks={"load": merl_load.TASKS["load"]})
+    assert rows[0]["peak_megabytes"] < 500

@@ -16,7 +16,8 @@ def read_csv(path):
 def test_ranking_and_parameters_of_every_model_are_printed(run, chalk, tmp_path):
     models = "lambert,oren_nayar"
     out_folder = tmp_path / "out"
-    status, out, err = run("compare", chalk, "--models", models, "--out", out_folder)
+    ask = ("compare", chalk, "--models", models, "--out", out_folder, "--report")
+    status, out, err = run(*ask)
     words = " ".join(out.split())
     assert (status, err) == (0, "")
     for heading in ("held-out", "rms, all", "AICc", "CIEDE", "Delta E", "seconds"):
@@ -27,7 +28,7 @@ def test_ranking_and_parameters_of_every_model_are_printed(run, chalk, tmp_path)
     assert "\N{PLUS-MINUS SIGN}" in words
     assert "are tied" in words  # both are a constant here
     pictures = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "pdf")}
-    results = {"comparison.json", "lambert.json", "oren_nayar.json"}
+    results = {"comparison.json", "lambert.json", "oren_nayar.json", "report.html"}
     tables = {"ranking.csv", "parameters.csv"}
     assert {p.name for p in out_folder.iterdir()} == pictures | results | tables
 

@@ -1,5 +1,6 @@
 import json
 from functools import partial
+from pathlib import Path
 
 import pytest
 
@@ -41,6 +42,16 @@ def test_out_holds_result_and_pictures_whole(run, chalk, tmp_path):
     assert {path.name for path in folder.iterdir()} == {"result.json", *pictures}
     assert str(folder) in out.replace("\n", "")
     assert brdffit.load_result(folder / "result.json").model == "lambert"
+
+
+def test_a_report_alone_is_one_file_in_this_folder(run, chalk, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run("fit", "--report", chalk, "--model", "lambert")
+    assert (status, err) == (0, "")
+    assert [path.name for path in tmp_path.iterdir()] == ["report.html"]
+    assert str(tmp_path) in out.replace("\n", "")
+    html = Path("report.html").read_text(encoding="utf-8")
+    assert all(word in html for word in ("chalk.csv", "brdffit table", "lambert"))
 
 
 def test_a_parameter_can_be_held(run, chalk):

@@ -12,6 +12,7 @@ import pytest
 from experiments import (
     anisotropy,
     classic_scenes,
+    hostile_input,
     metal_highlight,
     million_pairs,
     original_phong,
@@ -149,12 +150,12 @@ def test_fields_of_tangents_turn_the_highlight(tmp_path):
 
 
 def test_six_materials_are_shown_with_their_effects(tmp_path, monkeypatch):
-    monkeypatch.setattr(six_materials, "RUNS", 1)
+    monkeypatch.setattr(six_materials, "TURNS", 1)
     six_materials.main(tmp_path, resolution=24)
     check_record(tmp_path)
     for row in table(tmp_path):
         assert row["effects"].startswith("ambient falloff shadows")
-        assert float(row["milliseconds"]) > 0
+        assert float(row["over_phong"]) > 0
     assert len(table(tmp_path)) == 6
 
 
@@ -164,7 +165,7 @@ def test_shadow_maps_come_closer_with_every_pixel(tmp_path, monkeypatch):
     shadow_maps.main(tmp_path, resolution=48)
     check_record(tmp_path)
     for light in shadow_maps.LIGHTS:
-        errors = [float(r["error"]) for r in table(tmp_path) if r["light"] == light]
+        errors = [float(r["error"]) for r in table(tmp_path) if r["question"] == light]
         assert errors[0] == 0
         assert errors[1] > 1.5 * errors[3]
 
@@ -189,3 +190,13 @@ def test_classic_scenes_are_drawn(tmp_path):
     assert "bounces" in effects["table top: traced"]
     assert effects["bumps of 0"] == []
     assert effects["Gooch: outlines"] == ["style"]
+
+
+def test_damage_and_traps_are_counted(tmp_path):
+    traps = hostile_input.TRAPS[:2]
+    hostile_input.main(tmp_path, formats=("fred",), most=3, traps=traps)
+    rows = table(tmp_path)
+    assert [row["damage"] for row in rows[:4]] == ["cuts", "flips", "words", "numbers"]
+    assert len(rows) == 6
+    assert {row["wrong"] for row in rows} == {"0"}
+    assert all(int(r["read"]) + int(r["refused"]) == int(r["files"]) for r in rows)

@@ -78,6 +78,8 @@ def test_ratio_of_forward_to_back_is_that_of_the_data():
 def test_a_ball_without_gloss_misses_the_highlight(tmp_path):
     shared_data("sphere_photos", "diligent_ball")
     ball_gloss.main(tmp_path, models=("lambert",), starts=1)
-    (row,) = table(tmp_path)
+    row, common, own = table(tmp_path)
     assert float(row["image_error_percent"]) == pytest.approx(13.8, abs=0.2)
+    assert float(common["image_error_percent"]) == pytest.approx(6.7, abs=0.1)
+    assert float(own["in_highlight_percent"]) < float(common["in_highlight_percent"])
     assert float(row["in_highlight_percent"]) > 5 * float(row["elsewhere_percent"])

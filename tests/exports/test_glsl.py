@@ -20,6 +20,11 @@ using namespace std;
 struct vec3 { float x, y, z; vec3(float a, float b, float c) : x(a), y(b), z(c) {} };
 static float sign(float x) { return x > 0 ? 1.f : x < 0 ? -1.f : 0.f; }
 """
+MAIN = """
+in vec3 light, viewer;
+out vec4 colour;
+void main() { colour = vec4(brdf(light, viewer), 1.0); }
+"""
 LOOP = """
 extern "C" void many_NAME(int count, const float* i, const float* o, float* f)
 {
@@ -84,6 +89,20 @@ def library(programs, tmp_path_factory):
         [*command, "-w", "-o", folder / "all.so", folder / "all.cpp"], check=True
     )
     return ctypes.CDLL(str(folder / "all.so"))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_text_is_valid_in_a_shader(programs, name, tmp_path):
+    """By the reference of Khronos, which Debian's package glslang-tools holds."""
+    if shutil.which("glslangValidator") is None:
+        pytest.skip("glslangValidator is needed to judge the text as GLSL")
+    text = glsl.source(programs[name], {"model": name})
+    shader = tmp_path / f"{name}.frag"
+    shader.write_text(f"#version 130\n{text}\n{MAIN}")
+    done = subprocess.run(
+        ["glslangValidator", str(shader)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout
 
 
 @pytest.mark.parametrize("name", NAMES)

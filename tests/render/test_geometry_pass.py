@@ -2,8 +2,21 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from brdffit.render import trace
-from brdffit.scene import lit_sphere
+from brdffit.effects.plan import plan_for_tracing
+from brdffit.models import MODELS
+from brdffit.render import materials_of, radiance, render, trace, trace_paths
+from brdffit.render.plain import is_plain
+from brdffit.scene import (
+    Ambient,
+    Directional,
+    Geometry,
+    Orthographic,
+    Plane,
+    Point,
+    Scene,
+    Sphere,
+    lit_sphere,
+)
 
 LIGHTS = ((-0.48, 0.6, 0.64), (0.8, 0.0, -0.6))
 SIZE = 31
@@ -96,3 +109,18 @@ def test_channels_that_do_not_agree_are_refused():
 def test_tracing_leaves_the_precision_of_jax_alone():
     trace(lit_sphere(4))
     assert jnp.ones(3).dtype == jnp.float32
+
+
+@pytest.mark.parametrize("light", [Directional([0.6, 0.8, 0.0]), Point([1, 3, 1])])
+def test_plain_scenes_are_traced_in_one_program_as_all_others_are_in_steps(light):
+    """A sphere on a floor of another material, with its shadow and ambient light."""
+    floor = Plane([0, -0.5, 0], [0, 0.8, 0.6], MODELS["lambert"](albedo=[0.5] * 3))
+    scene = Scene(Orthographic(24), (Sphere(), floor), (light, Ambient(0.1)))
+    brdf = MODELS["ward"]()
+    plan = plan_for_tracing(scene, brdf)
+    assert plan.on("shadows")
+    assert plan.on("ambient")
+    assert is_plain(scene, Geometry(scene.shapes), plan)
+    steps = radiance(materials_of(scene, brdf), trace_paths(scene, plan, 3))
+    image = render(brdf, scene, plan).reshape(-1, 3)
+    np.testing.assert_allclose(image, steps, rtol=1e-5, atol=1e-6)

@@ -25,7 +25,7 @@ BRDFS = [MODELS[name]() for name in ("ggx", "phong", "lambert", "oren_nayar", "e
         (LOG, 0.0198, "2.0"),
         (LOG, 2.0, "639"),
         (PLAIN, 0.1, "5.0"),
-        (PLAIN, 1e-6, "<\N{THIN SPACE}0.001"),
+        (PLAIN, 1e-6, "<\N{NARROW NO-BREAK SPACE}0.001"),
     ],
 )
 def test_errors_are_percentages(measure, rms, shown):
@@ -61,6 +61,15 @@ def test_an_exact_winner_is_more_than_a_thousand_times_better():
     ranked = dataclasses.replace(ranked, entries=(exact, ranked.entries[1]))
     verdict = verdict_on_comparison(ranked, LOG, "pixels")
     assert verdict.sentences[1].endswith("more than 1,000 times as much.")
+
+
+def test_a_narrow_lead_is_called_so():
+    ranked = comparison_of(*BRDFS[:2])
+    near = dataclasses.replace(ranked.entries[1], held_out=0.103)
+    ranked = dataclasses.replace(ranked, entries=(ranked.entries[0], near))
+    verdict = verdict_on_comparison(ranked, LOG, "pixels")
+    assert verdict.headline == "`ggx` fits best, narrowly"
+    assert verdict.sentences[1].endswith(": 3\N{NO-BREAK SPACE}% more.")
 
 
 def test_models_of_one_name_are_told_apart():

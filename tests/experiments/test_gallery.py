@@ -1,0 +1,84 @@
+"""All experiments in one run, and the pages that are made of what they leave."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from brdffit.models import MODELS
+from experiments import __main__ as every, gallery
+from experiments.record import RESULTS, Record, digest
+
+ROOT = RESULTS.parent
+NOT_EXPERIMENTS = {"gallery", "hard_cases_truth"}  # scripts all the same
+
+
+def scripts():
+    folder = Path(gallery.__file__).parent
+    return {
+        path.stem
+        for path in folder.glob("*.py")
+        if 'if __name__ == "__main__"' in path.read_text() and path.stem != "__main__"
+    }
+
+
+def test_every_experiment_is_in_the_list():
+    assert set(gallery.questions()) == scripts() - NOT_EXPERIMENTS
+
+
+def test_a_failure_is_told_and_stops_nothing(monkeypatch, capsys):
+    asked = []
+
+    def run(name):
+        asked.append(name)
+        return 2.0, "it broke" if name == "ptfe" else ""
+
+    monkeypatch.setattr(every, "run", run)
+    monkeypatch.setattr(gallery, "main", lambda: asked.append("gallery"))
+    assert every.main(["ptfe", "solvers"]) == 1
+    assert asked == ["ptfe", "solvers", "gallery"]
+    printed = capsys.readouterr().out
+    assert "[1/2] ptfe 2 s, failed:\nit broke" in printed
+    assert "failed: ptfe" in printed
+    assert every.main(["solvers"]) == 0
+
+
+def test_an_experiment_runs_in_a_process_of_its_own():
+    seconds, why = every.run("no_such_experiment")
+    assert seconds > 0
+    assert "no_such_experiment" in why
+
+
+def test_an_unknown_experiment_is_refused():
+    with pytest.raises(ValueError, match="Did you mean `solvers`"):
+        every.main(["solver"])
+
+
+def test_the_gallery_shows_what_an_experiment_left(tmp_path):
+    record = Record(tmp_path / "solvers")
+    record.table([{"a": 1.0}])
+    record.close(finding="It is 3 times faster.")
+    (tmp_path / "solvers" / "figure.png").write_bytes(b"png")
+    (tmp_path / "solvers" / "figure.pdf").write_bytes(b"pdf")
+    text = "\n".join(gallery.section("solvers", "which?", tmp_path))
+    assert "**It is 3 times faster.**" in text
+    assert "![which?](solvers/figure.png)" in text
+    assert "[table.csv](solvers/table.csv)" in text
+    assert "not been run" in "\n".join(gallery.section("ptfe", "q?", tmp_path))
+
+
+def test_pages_are_what_the_results_make():
+    assert gallery.PAGE.read_text(encoding="utf-8") == gallery.page()
+    readme = gallery.README.read_text(encoding="utf-8")
+    assert readme == gallery.filled(readme)
+
+
+def test_pictures_of_the_readme_are_those_that_experiments_wrote():
+    text = gallery.README.read_text(encoding="utf-8")
+    shown = re.findall(r'!\[[^\]]*\]\(([^)]+)\)|<img src="([^"]+)"', text)
+    paths = [ROOT / (markdown or html) for markdown, html in shown]
+    assert len(paths) >= len(MODELS) - 1  # a sphere of each; a sum is none
+    for path in paths:
+        run = tomllib.loads((path.parent / "run.toml").read_text())
+        assert run["sha256"][path.name] == digest(path), path
