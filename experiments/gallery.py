@@ -43,6 +43,12 @@ def questions():
     return dict(lines)
 
 
+def timed():
+    """Names of the experiments whose answer is a time, those of the first part."""
+    first = experiments.__doc__.split(":\n\n")[1].partition("\n\n")[0]
+    return re.findall(r"^    (\w+)", first, re.MULTILINE)
+
+
 def figures(folder):
     """Names of its figures, the main one first; without the others if they are many."""
     found = sorted(path.name for path in folder.glob("*.png"))

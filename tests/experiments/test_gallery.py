@@ -27,25 +27,38 @@ def test_every_experiment_is_in_the_list():
     assert set(gallery.questions()) == scripts() - NOT_EXPERIMENTS
 
 
-def test_a_failure_is_told_and_stops_nothing(monkeypatch, capsys):
-    asked = []
+def test_experiments_on_time_have_the_machine_to_themselves(monkeypatch, capsys):
+    asked = {}
 
-    def run(name):
-        asked.append(name)
+    def run(name, cores):
+        asked[name] = list(cores)
         return 2.0, "it broke" if name == "ptfe" else ""
 
     monkeypatch.setattr(every, "run", run)
-    monkeypatch.setattr(gallery, "main", lambda: asked.append("gallery"))
-    assert every.main(["ptfe", "solvers"]) == 1
-    assert asked == ["ptfe", "solvers", "gallery"]
+    monkeypatch.setattr(gallery, "main", lambda: asked.update(gallery=[]))
+    monkeypatch.setattr(every.os, "sched_getaffinity", lambda _: {3, 5})
+    assert every.main(["ptfe", "solvers", "curet_matte"]) == 1
+    assert list(asked)[0] == "solvers"
+    assert asked["solvers"] == [3, 5]
+    assert len(asked["ptfe"]) == len(asked["curet_matte"]) == 1
+    assert list(asked)[-1] == "gallery"
     printed = capsys.readouterr().out
-    assert "[1/2] ptfe 2 s, failed:\nit broke" in printed
+    assert "ptfe 2 s, failed:\nit broke" in printed
+    assert "[3/3]" in printed
     assert "failed: ptfe" in printed
     assert every.main(["solvers"]) == 0
 
 
+def test_what_is_timed_is_the_first_part_of_the_list():
+    assert {"forward_models", "solvers", "bounce_depth"} <= set(gallery.timed())
+    assert "ptfe" not in gallery.timed()
+    for name in gallery.timed():
+        source = Path(gallery.__file__).with_name(f"{name}.py").read_text()
+        assert "    use_one_core()" in source
+
+
 def test_an_experiment_runs_in_a_process_of_its_own():
-    seconds, why = every.run("no_such_experiment")
+    seconds, why = every.run("no_such_experiment", [0])
     assert seconds > 0
     assert "no_such_experiment" in why
 
