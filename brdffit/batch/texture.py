@@ -72,11 +72,8 @@ class FitChunk:
         key, count = str(chunk.number), chunk.stop - chunk.start
         texels = self.stack.read(chunk.start, chunk.stop)
         mark = fingerprint(content=content_of(texels), **self.options)
-        arrays = _arrays(self.group)
-        files = [
-            self.group / name / _key(array, chunk.number)
-            for name, array in arrays.items()
-        ]
+        arrays = open_results(self.group)
+        files = files_of(self.group, arrays, chunk.number)
         if chunk.record and chunk.record.holds(mark, files):
             return Outcome(key, count, chunk.record, kept=True)
         fits = fit_texels(
@@ -224,7 +221,7 @@ def _create_arrays(group: Any, layout: Layout, texels: int, chunk: int) -> None:
         create(name, (), kind)
 
 
-def _arrays(path: Path) -> dict[str, Any]:
+def open_results(path: Path) -> dict[str, Any]:
     """Arrays of the results by name, in one order; chunks of zeros are written too."""
     group = import_zarr().open_group(path, mode="r+")
     parts = [(f"{part}/", group[part]) for part in ("parameters", "standard_errors")]
@@ -233,9 +230,13 @@ def _arrays(path: Path) -> dict[str, Any]:
     return {name: group[name].with_config(whole) for name in [*names, *KINDS]}
 
 
-def _key(array: Any, number: int) -> str:
-    """Name of the file of a chunk below the folder of its array."""
-    return array.metadata.encode_chunk_key((*(0,) * (array.ndim - 1), number))
+def files_of(path: Path, arrays: Mapping[str, Any], number: int) -> list[Path]:
+    """The file of a chunk in each of the arrays of the results."""
+    found = []
+    for name, array in arrays.items():
+        place = (*(0 for _ in array.shape[:-1]), number)
+        found.append(path / name / array.metadata.encode_chunk_key(place))
+    return found
 
 
 def _results(fits: TexelFits) -> dict[str, np.ndarray]:
