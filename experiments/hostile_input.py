@@ -73,7 +73,7 @@ def size_of(path):
     return sum(file.stat().st_size for file in files_of(path) if file.is_file())
 
 
-def mutants(guard, path, told, most):
+def mutants(guard, path, told, most, cuts):
     """A tally for each kind of damage to each kind of file of a specimen."""
     assert guard.read(path).outcome == "read"
     tallies = {}
@@ -81,7 +81,7 @@ def mutants(guard, path, told, most):
         whole, size = file.read_bytes(), size_of(path)
         for kind, damages in KINDS.items():
             chosen = damages(whole)
-            limit = CUTS if kind == "cuts" else most
+            limit = cuts if kind == "cuts" else most
             if len(whole) > LARGE and kind != "cuts":
                 limit = max(limit // 10, 1)
             if len(chosen) > limit:
@@ -106,7 +106,11 @@ def copy(source, folder):
 
 
 def main(
-    folder=RESULTS / "hostile_input", formats=tuple(SPECIMENS), most=MOST, traps=TRAPS
+    folder=RESULTS / "hostile_input",
+    formats=tuple(SPECIMENS),
+    most=MOST,
+    cuts=CUTS,
+    traps=TRAPS,
 ):
     """Write the table.
 
@@ -114,6 +118,7 @@ def main(
         folder: Where the results go.
         formats: Readers whose specimens are damaged.
         most: Damages of one kind, other than cuts, to one file.
+        cuts: Most cuts of one file.
         traps: Those to set.
     """
     record, rows = Record(folder, seed=0), []
@@ -126,7 +131,7 @@ def main(
         }
         for name, make in makers.items():
             with tempfile.TemporaryDirectory() as temporary:
-                rows += mutants(guard, make(Path(temporary)), name, most)
+                rows += mutants(guard, make(Path(temporary)), name, most, cuts)
         for trap in traps:
             with tempfile.TemporaryDirectory() as temporary:
                 path = trap(Path(temporary))
@@ -134,7 +139,11 @@ def main(
                 tally.add(guard.read(path), size_of(path), "specimen")
                 rows.append(tally.counted())
     record.table(rows)
-    record.close(damages_of_a_kind=most, files=sum(row["files"] for row in rows))
+    record.close(
+        damages_of_a_kind=most,
+        cuts_of_a_file=cuts,
+        files=sum(row["files"] for row in rows),
+    )
     return rows
 
 
