@@ -40,6 +40,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from brdffit.albedo import directional_albedo as directional_albedo
     from brdffit.batch.folder import Batch as Batch, batch as batch
+    from brdffit.batch.svbrdf import Svbrdf as Svbrdf, svbrdf as svbrdf
     from brdffit.batch.texture import fit_texture as fit_texture
     from brdffit.cache import enable_compilation_cache as enable_compilation_cache
     from brdffit.databases import fetch as fetch
@@ -56,6 +57,7 @@ if TYPE_CHECKING:
     from brdffit.render import (
         Noise as Noise,
         render as render,
+        render_texture as render_texture,
         simulate_image as simulate_image,
         simulate_measurement as simulate_measurement,
     )
@@ -80,6 +82,7 @@ _HOME = {
     "Plan": "effects",
     "Samples": "samples",
     "Scene": "scene",
+    "Svbrdf": "batch.svbrdf",
     "batch": "batch.folder",
     "bootstrap": "fit.bootstrap",
     "compare": "fit.select",
@@ -97,9 +100,11 @@ _HOME = {
     "plan": "effects",
     "profile": "fit.profile",
     "render": "render",
+    "render_texture": "render",
     "report": "report",
     "simulate_image": "render",
     "simulate_measurement": "render",
+    "svbrdf": "batch.svbrdf",
 }
 
 

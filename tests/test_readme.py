@@ -58,6 +58,15 @@ def test_the_scene_calls_for_what_it_holds(tmp_path):
     assert printed == "['falloff', 'shadows']\n"
 
 
+def test_the_wall_of_known_truth_is_found_again(tmp_path):
+    (script,) = (block for block in blocks("python") if "wall" in block)
+    run(script.replace("128, 24", "16, 24"), tmp_path)
+    done = brdffit.svbrdf("ggx", tmp_path / "wall", tmp_path / "maps", hold_out="6")
+    assert done.summary["held_out"]["photograph"] == "05.exr"
+    assert done.summary["held_out"]["relative_rms"] < 0.02
+    assert done.summary["parameters"]["alpha"]["median"] == pytest.approx([0.15], 0.02)
+
+
 def test_commands_are_understood_as_they_stand():
     lines = [line for block in blocks("sh") for line in block.splitlines()]
     commands = [line for line in lines if line.startswith("brdffit ")]

@@ -60,8 +60,8 @@ class Svbrdf:
 
 def svbrdf(
     model: str,
-    source: Path,
-    out: Path,
+    source: str | Path,
+    out: str | Path,
     *,
     hold_out: str | None = None,
     residual: str | None = None,
@@ -90,6 +90,7 @@ def svbrdf(
         OSError: Something cannot be read or written.
     """
     from_name(model)
+    source, out = Path(source), Path(out)
     if not resume and (out / FIT).exists():
         raise FileExistsError(
             f"Folder `{out}` holds an earlier run: go on with it by --resume (in "

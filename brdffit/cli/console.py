@@ -124,6 +124,7 @@ def tally_bar() -> Iterator[Callable[[Tally], None]]:
         A function to call with the counts of the run.
     """
     from rich import progress as rich
+    from rich.console import Console
 
     bar = rich.Progress(
         rich.SpinnerColumn(),
