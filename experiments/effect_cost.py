@@ -35,9 +35,9 @@ from experiments.pareto import chart
 from experiments.record import RESULTS, Record, styled
 from experiments.tradeoff import Variant, measured, root_mean_square, rounded
 
-RESOLUTION, ROUGH_RESOLUTION = 96, 512
+RESOLUTION, ROUGH_RESOLUTION = 112, 512
 BRIGHTEST = 1.5  # radiance of the sky
-DIRECTIONS_TOLERANCE = 0.1  # of the light probe
+DIRECTIONS_TOLERANCE = 0.3  # of the light probe
 TURNS = 3
 SCENE_EFFECTS = (
     *("ambient", "falloff", "tangents", "bump", "cut_out", "shadows"),
