@@ -43,8 +43,8 @@ and at full size by `python -m experiments.NAME --full`.
 Beside the experiments stand what some of them share: `record` writes results,
 `tradeoff` measures error against time, `pareto` draws it, `labels` finds places for
 names, `measured_sets` and `comparison_sets` are materials, `comparison_figures` draws
-three models on them, `gallery` makes the page, `hard_cases` lists directions and
-parameters, `textbook` has the formulas as they are printed, `hard_cases_truth` makes
-the file of the same name with a hundred digits, and `merl_standins` makes materials for
-MERL files.
+three models on them, `gallery` makes the page, `captions` says what tables show,
+`hard_cases` lists directions and parameters, `textbook` has the formulas as they are
+printed, `hard_cases_truth` makes the file of the same name with a hundred digits, and
+`merl_standins` makes materials for MERL files.
 """

@@ -14,6 +14,7 @@ import experiments
 from brdffit.files import replacing
 from brdffit.models import MODELS
 from brdffit.parameters import parameters
+from experiments.captions import CAPTIONS
 from experiments.record import RESULTS
 
 PAGE = RESULTS / "README.md"
@@ -70,6 +71,8 @@ def section(name, question, root=RESULTS):
     if not run:
         return [*lines, "", "It has not been run."]
     finding = run.get("finding", "")
+    if not finding and name in CAPTIONS:
+        finding = CAPTIONS[name](folder)
     if finding:
         lines += ["", f"**{finding}**"]
     for figure in figures(folder):

@@ -8,6 +8,7 @@ import pytest
 
 from brdffit.models import MODELS
 from experiments import __main__ as every, gallery
+from experiments.captions import CAPTIONS
 from experiments.record import RESULTS, Record, digest
 
 ROOT = RESULTS.parent
@@ -95,3 +96,14 @@ def test_pictures_of_the_readme_are_those_that_experiments_wrote():
     for path in paths:
         run = tomllib.loads((path.parent / "run.toml").read_text())
         assert run["sha256"][path.name] == digest(path), path
+
+
+def test_captions_are_worked_out_from_tables(tmp_path):
+    folder = tmp_path / "ptfe"
+    record = Record(folder)
+    rows = [("ggx", 1.52), ("lambert", 7.66)]
+    record.table([{"model": m, "relative_rms_percent": x} for m, x in rows])
+    record.close()
+    text = "\n".join(gallery.section("ptfe", "which?", tmp_path))
+    assert "**ggx leaves 1.5 % where lambert leaves 7.7 %.**" in text
+    assert set(CAPTIONS) <= set(gallery.questions())
