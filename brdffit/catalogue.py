@@ -7,13 +7,12 @@ from collections.abc import Mapping
 from typing import Any
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 
 from brdffit.models import MODELS, AbstractBRDF
 from brdffit.models.base import RGB
 from brdffit.names import look_up
-from brdffit.parameters import registry_name
+from brdffit.parameters import broadcast, registry_name
 from brdffit.per_channel import PerChannel
 
 
@@ -25,7 +24,9 @@ def from_name(name: str, channels: int = RGB) -> AbstractBRDF:
     """
     parts = [look_up(MODELS, part.strip(), "Model")() for part in name.split("+")]
     brdf = functools.reduce(operator.add, parts)
-    return jax.tree.map(lambda a: jnp.repeat(a[:1], channels) if a.ndim else a, brdf)
+    return jax.tree.map(
+        lambda a: broadcast(np.asarray(a)[:1], (channels,)) if a.ndim else a, brdf
+    )
 
 
 def description(brdf: AbstractBRDF) -> dict[str, Any]:

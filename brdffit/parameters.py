@@ -10,9 +10,13 @@ from operator import attrgetter
 from typing import Any, TypeVar
 
 import equinox as eqx
+import jax
+import jax.core
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array
+
+from brdffit.types import AnyArray
 
 Model = TypeVar("Model", bound=eqx.Module)
 
@@ -88,8 +92,19 @@ def spectral_fields(model: eqx.Module | type[eqx.Module]) -> dict[str, bool]:
 
 def as_float(value: Any) -> Array:
     """``value`` as an array of floats; the precision of a float array is kept."""
+    if isinstance(value, int | float | np.ndarray | np.generic):  # compiles nothing
+        value = np.asarray(value)
+        known = jnp.issubdtype(value.dtype, jnp.floating)
+        return jax.device_put(value if known else value.astype(float))
     dtype = jnp.result_type(jnp.asarray(value))
     return jnp.asarray(value, dtype if jnp.issubdtype(dtype, jnp.floating) else float)
+
+
+def broadcast(array: AnyArray, shape: tuple[int, ...]) -> Array:
+    """``array`` in a wider shape, which compiles nothing unless it is being traced."""
+    if isinstance(array, jax.core.Tracer):
+        return jnp.broadcast_to(array, shape)
+    return jax.device_put(np.broadcast_to(np.asarray(array), shape))
 
 
 def parameters(model: eqx.Module | type[eqx.Module]) -> dict[str, Parameter]:

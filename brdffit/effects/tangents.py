@@ -25,7 +25,7 @@ PAIRS = 64  # of directions at which anisotropy is measured
 def decide(view: View) -> Decision:
     """A scene calls for it when a BRDF in it is anisotropic, or not known yet."""
     field = TANGENTS[view.scene.tangents]
-    cost = operations(lambda n: field(n), jnp.zeros(3))
+    cost = operations(lambda n: field(n), np.zeros(3))
     own = [shape.material for shape in view.scene.shapes]
     known = [m for m in own if isinstance(m, AbstractBRDF)]
     handed = any(material is None for material in own)

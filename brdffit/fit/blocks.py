@@ -13,6 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
+from brdffit.compiled import compiled
 from brdffit.fit.residual import Residual
 from brdffit.samples import Samples
 from brdffit.types import AnyArray
@@ -118,7 +119,7 @@ def blocks(
 
     value = lay(np.where(use, np.asarray(samples.value), 1), 1, np.float64)
     cosines = lay(samples.cosine, HARMLESS[2]), lay(samples.wo[:, 2], HARMLESS[2])
-    target, slope = map(np.asarray, _compared(residual, value, *cosines))
+    target, slope = map(np.asarray, _compared(value, *cosines, residual=residual))
     scale = lay(base, 0, np.float64)
     if samples.sigma is None:
         lean = scale * slope
@@ -141,8 +142,8 @@ def blocks(
     )
 
 
-@partial(jax.jit, static_argnums=0)
-def _compared(residual: Residual, value, cos_i, cos_o):
+@partial(compiled, static=("residual",))
+def _compared(value, cos_i, cos_o, residual: Residual):
     """Transform of values ``(block, channel, place)`` in their precision, and slope."""
     cosines = cos_i[:, None].astype(value.dtype), cos_o[:, None].astype(value.dtype)
     return jax.jvp(

@@ -37,7 +37,7 @@ from brdffit.fit.transforms import (
 )
 from brdffit.models import AbstractBRDF
 from brdffit.names import look_up
-from brdffit.parameters import check, registry_name
+from brdffit.parameters import as_float, check, registry_name
 from brdffit.samples import Measurement, Samples, as_samples
 
 if TYPE_CHECKING:
@@ -231,7 +231,7 @@ def _fitted(
     """The model with the fitted values, in the precision JAX is set to."""
     flat = np.concatenate([np.atleast_1d(v) for v in natural.values()])
     held = unpack(layout, brdf, flat)
-    return jax.tree.map(lambda leaf: jnp.asarray(leaf, float), held)
+    return jax.tree.map(lambda leaf: as_float(np.asarray(leaf, float)), held)
 
 
 def _path(

@@ -9,6 +9,7 @@ import jax.numpy as jnp
 from brdffit.geometry import cos_theta
 from brdffit.parameters import (
     as_float,
+    broadcast,
     parameters,
     registry_name,
     spectral_fields,
@@ -56,7 +57,7 @@ class AbstractBRDF(eqx.Module):
         channels = next(iter(sized.values()), (RGB,))
         for name, array in arrays.items():
             shape = channels if spectral[name] else ()
-            setattr(self, name, jnp.broadcast_to(array, shape))
+            setattr(self, name, broadcast(array, shape))
 
     @property
     def channels(self) -> int:
