@@ -81,8 +81,9 @@ def _described(value: Any, fixed: bool) -> Any:
     kind = type(value)
     if kind in PLAIN:
         return kind.__name__, repr(value)
-    if kind in (tuple, list):
-        return kind.__name__, tuple(_described(item, fixed) for item in value)
+    if isinstance(value, tuple | list):
+        name = kind.__name__ if kind in (tuple, list) else _place(kind)
+        return name, tuple(_described(item, fixed) for item in value)
     if kind is dict:
         items = sorted(value.items())
         return "dict", tuple((repr(k), _described(v, fixed)) for k, v in items)

@@ -13,6 +13,7 @@ from brdffit.fit.transforms import Layout
 from brdffit.identity import NamelessError, identity
 from brdffit.models import GGX
 from brdffit.numerics import sqrt
+from brdffit.scene.nearest import Meeting
 
 X = np.zeros((3, 2))
 
@@ -27,7 +28,17 @@ class Foreign(eqx.Module):
 
 def test_values_of_arrays_do_not_count_but_shapes_and_types_do():
     assert name() == name(arguments=(X + 1,))
-    others = [(X[:2],), (X.astype(np.float32),), ([X],), (X, X), ({"x": X},), ()]
+    met = Meeting(X, X, X, X)
+    others = [
+        (met,),
+        ((X, X, X, X),),
+        (X[:2],),
+        (X.astype(np.float32),),
+        ([X],),
+        (X, X),
+        ({"x": X},),
+        (),
+    ]
     names = {name(arguments=arguments) for arguments in others}
     assert len(names | {name()}) == 1 + len(others)
 

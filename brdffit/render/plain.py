@@ -78,7 +78,7 @@ def for_each_block(
         glow = ambient.received(scene, 1, channels)
     with jax.enable_x64(True):  # on the device once, not with every block
         image, groups, light = jax.tree.map(
-            jnp.asarray,
+            lambda leaf: jax.device_put(np.asarray(leaf)),
             (
                 (scene.camera.lens, (float(rows), float(columns))),
                 geometry.groups,
@@ -88,12 +88,13 @@ def for_each_block(
 
     def one(start: int) -> None:
         with jax.enable_x64(True):
-            seen = _first(image, groups, float(start), size=size)
+            begin = np.asarray(float(start))
+            seen = _first(image, groups, begin, size=size)
             wi, wo, weight = _lit(
                 image,
                 groups,
                 light,
-                float(start),
+                begin,
                 seen,
                 field=field,
                 channels=channels,
