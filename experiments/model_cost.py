@@ -24,7 +24,7 @@ from experiments.forward_models import directions, reflected
 from experiments.measured_sets import COUNT, grey, present
 from experiments.pareto import chart
 from experiments.record import RESULTS, Record
-from experiments.tradeoff import Variant, front, measured, rounded
+from experiments.tradeoff import Variant, front, measured
 
 MODELS = (
     *("lambert", "oren_nayar", "phong", "ward_duer", "cook_torrance", "ggx"),
@@ -77,9 +77,8 @@ def title(rows):
     best = min(rows, key=lambda row: row["error"])
     plain = next(row for row in rows if row["variant"] == "lambert")
     return (
-        f"{rows[0]['question']}: {best['variant']}\nleaves "
-        f"{rounded(100 * best['error'])} % where lambert leaves "
-        f"{rounded(100 * plain['error'])} %"
+        f"{rows[0]['question']}: {best['variant']}\nleaves {best['error']:.2g} where "
+        f"lambert leaves {plain['error']:.2g}"
     )
 
 
@@ -122,7 +121,7 @@ def main(
         {name: title(own) for name, own in found.items()},
         finding(found),
         unit="ns",
-        error="relative error left",
+        error="relative error left (RMS)",
         time_of="one evaluation",
         panel=PANEL,
     )
