@@ -111,7 +111,8 @@ def headline(chosen):
         question, run = questions()[name], told(RESULTS / name)
         found = [n for n in names if f"{n}.png" in run.get("sha256", ())]
         for figure in found:
-            lines += [f"![{question}](results/{name}/{figure}.png)", ""]
+            words = question[0].upper() + question[1:]
+            lines += [f"![{words}](results/{name}/{figure}.png)", ""]
         if found:
             lines += [run.get("finding", ""), ""]
     return lines[:-1]

@@ -9,6 +9,7 @@ import brdffit
 from brdffit import plots
 from brdffit.cli.demo import EXAMPLE
 from experiments.record import RESULTS, Record
+from experiments.tradeoff import rounded
 
 SPHERE = RESULTS.parent / "data_synthetic" / "cook_torrance_three_lights.exr"
 PAINT = ("ggx+ggx_lobe", "ggx", "cook_torrance", "phong")
@@ -36,7 +37,7 @@ def finding(rows):
         first, second = [row for row in rows if row["example"] == example][:2]
         ratio = second["held_out"] / first["held_out"]
         said.append(
-            f"{first['model']} explains the {example}, with 1/{ratio:.2g} of the error "
+            f"{first['model']} explains the {example}, with 1/{rounded(ratio)} of the error "
             f"of {second['model']}"
         )
     return "; ".join(said)
