@@ -174,8 +174,9 @@ def save_stack(
         group = zarr.create_group(temporary, attributes=attributes)
         for number, part in enumerate(parts):
             for name, array in arrays_of(part).items():
-                if number == 0:
-                    group.create_array(name, data=array, chunks=array.shape)
+                if number == 0:  # noise does not compress, and unpacking takes time
+                    kind = {"chunks": array.shape, "compressors": None}
+                    group.create_array(name, data=array, **kind)
                 elif array.shape[-1] > 1 or len(part) == 1:
                     group[name].append(array, axis=2)
     return ZarrStack(path)
