@@ -37,8 +37,8 @@ def finding(rows):
         first, second = [row for row in rows if row["example"] == example][:2]
         ratio = second["held_out"] / first["held_out"]
         said.append(
-            f"{first['model']} explains the {example}, with 1/{rounded(ratio)} of the error "
-            f"of {second['model']}"
+            f"{first['model']} explains the {example}, with 1/{rounded(ratio)} of the "
+            f"error of {second['model']}"
         )
     return "; ".join(said)
 
