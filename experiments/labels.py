@@ -9,7 +9,9 @@ from matplotlib.transforms import Bbox
 SIZE = 7  # of letters
 POINT = 4.5  # half the width of a marker, with its margin
 DISTANCES = (7, 12, 18, 26, 36, 48, 62, 78, 96, 120)  # from a point, in points of print
-ANGLES = np.radians([45, -45, 135, -135, 90, -90, 0, 180, 20, -20, 160, -160])
+ANGLES = np.radians(
+    [45, -45, 135, -135, 90, -90, 0, 180, 20, -20, 160, -160, 65, -65, 115, -115]
+)
 LEADER = 13  # distance from which on a line leads to the point
 LINE = {"arrowstyle": "-", "color": "#6b6b6b", "linewidth": 0.5, "shrinkB": 3}
 
@@ -17,8 +19,8 @@ LINE = {"arrowstyle": "-", "color": "#6b6b6b", "linewidth": 0.5, "shrinkB": 3}
 def label_points(axes, points, names, obstacles=()):
     """Write a name beside each point of a finished panel.
 
-    Every name takes the nearest place that is free, in the order given; neither it nor
-    the line that leads to it crosses another name.
+    Every name takes the nearest place that is free, in the order given; if possible the
+    line that leads to it crosses no other name or point.
 
     Args:
         axes: The panel; its limits and its place in the figure must not change later.
@@ -47,7 +49,8 @@ def label_points(axes, points, names, obstacles=()):
         text.remove()
         size = np.array([bare.width, bare.height])
         solid = [m for m in marks if not m.contains(*place)] + written
-        box = _free(place, size, scale, taken, solid, axes.get_window_extent())
+        options = place, size, scale, taken, axes.get_window_extent()
+        box = _free(*options, solid) or _free(*options)
         if box is None:
             crowded.append(name)
             box = Bbox([place, place + size])
@@ -80,7 +83,7 @@ def along(place, box):
     return place + share[:, None] * (end - place)
 
 
-def _free(place, size, scale, taken, solid, frame):
+def _free(place, size, scale, taken, frame, solid=()):
     """The nearest free box for a text, None without any.
 
     It must not cover what is taken, and the line to it must not cross what is solid.

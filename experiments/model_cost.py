@@ -31,7 +31,7 @@ MODELS = (
     *("student_t", "ashikhmin_shirley", "plastic_ggx", "principled", "ggx+ggx_lobe"),
 )
 PAIRS, TURNS, STARTS = 2**15, 11, 8
-PANEL = 4.0, 3.3  # inches
+PANEL = 4.3, 3.5  # inches
 
 
 def times(models, count, turns):
@@ -86,8 +86,8 @@ def finding(found):
     """Which model is on the front most often, as a sentence."""
     on = [row["variant"] for rows in found.values() for row in rows if row["on_front"]]
     best = [min(rows, key=lambda r: r["error"])["variant"] for rows in found.values()]
-    often = max(set(on) - {"lambert"}, key=on.count, default="lambert")
-    winner = max(set(best), key=best.count)
+    often = max(sorted(set(on) - {"lambert"}), key=on.count, default="lambert")
+    winner = max(sorted(set(best)), key=best.count)
     return (
         f"On {len(found)} measured materials {winner} leaves the least error on "
         f"{best.count(winner)}; beside lambert, {often} is most often on the front of "
