@@ -93,14 +93,14 @@ def finding(found):
 
 
 @styled
-def sheet(images):
+def sheet(images, words):
     """One scene at growing depths."""
     figure = new_figure(1.9 * len(images), 2.5)
     panels = figure.subplots(1, len(images))
     for axes, (depth, image) in zip(panels, images.items(), strict=True):
         plot_sphere(axes, image, 0.9)
         axes.set_title(f"depth {depth}")
-    entitle(figure, "Mirrors and glass, followed ever deeper")
+    entitle(figure, words)
     return figure
 
 
@@ -127,7 +127,9 @@ def main(
         panel=(4.2, 3.3),
     )
     record.figure(figure)
-    record.figure(sheet(shown), "pictures")
+    first = next(iter(found.values()))
+    words = title(first).replace("\n", " ")
+    record.figure(sheet(shown, words), "pictures")
     record.close(finding=finding(found) + ".", resolution=resolution, turns=turns)
 
 

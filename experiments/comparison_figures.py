@@ -121,12 +121,17 @@ def lobes(found, fitted):
     wi = np.tile(np.array([-np.sin(i), 0, np.cos(i)], np.float32), (len(o), 1))
     for axes in panels[len(found) :]:
         axes.set_axis_off()
+    closest = []
     for axes, (name, material) in zip(panels, found.items(), strict=False):
+        off = {}
         green = np.asarray(material.f_r(wi, wo))[:, 1]
         axes.plot(angle, np.where(green > 0, green, np.nan), color=BLACK, label="right")
         for model, colour, dash in zip(CLASSIC, COLOURS, DASHES[1:], strict=False):
             curve = modelled(fitted[name][SHOWN, model].brdf)(wi, wo)[:, 1]
             axes.plot(angle, curve, color=colour, ls=dash, label=model)
+            lit = (green > 0) & (curve > 0)
+            off[model] = np.sqrt(np.mean(np.log(curve[lit] / green[lit]) ** 2))
+        closest.append(min(off, key=off.get))
         axes.set(yscale="log", title=name)
         label_decimals(axes)
         axes.set_xlabel(r"$\theta_o$ [degrees]")
@@ -134,9 +139,11 @@ def lobes(found, fitted):
     figure.legend(
         *panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4
     )
+    most = max(CLASSIC, key=closest.count)
     entitle(
         figure,
-        f"Lobes under light from -{INCIDENCE:.0f} degrees, green channel, fitted under "
+        f"{most} has the closest lobe on {closest.count(most)} of {len(found)} "
+        f"materials: light from -{INCIDENCE:.0f} degrees, green channel, fitted under "
         f"{SHOWN}",
     )
     return figure

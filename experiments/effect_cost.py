@@ -150,7 +150,7 @@ def sheet(images, rows):
             f"{name}\n{rounded(1000 * row['seconds'])} ms, "
             f"change {rounded(100 * row['error'])} %"
         )
-    entitle(figure, "One scene without each of its effects")
+    entitle(figure, finding(rows))
     return figure
 
 

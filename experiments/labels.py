@@ -12,6 +12,7 @@ DISTANCES = (7, 12, 18, 26, 36, 48, 62, 78, 96, 120)  # from a point, in points 
 ANGLES = np.radians(
     [45, -45, 135, -135, 90, -90, 0, 180, 20, -20, 160, -160, 65, -65, 115, -115]
 )
+MARGIN = 2  # points of print between names beside each other
 LEADER = 13  # distance from which on a line leads to the point
 LINE = {"arrowstyle": "-", "color": "#6b6b6b", "linewidth": 0.5, "shrinkB": 3}
 
@@ -67,7 +68,7 @@ def label_points(axes, points, names, obstacles=()):
             zorder=6,
         ).set_in_layout(False)
         written.append(box)
-        taken += [box, *(around(p, 1) for p in leader if far)]
+        taken += [box.padded(MARGIN * scale, 0), *(around(p, 1) for p in leader if far)]
     return crowded
 
 
