@@ -193,7 +193,8 @@ def chart(rows):
     times = [line["median"] for line in parts]
     colours = [COLOURS[0] if name == "fit" else MUTED for name in names]
     bars = right.barh(names, times, color=colours, height=0.6)
-    right.bar_label(bars, [f"{time:,.3g}" for time in times], size=8, padding=3)
+    texts = [f"{time:,.0f}" if time >= 100 else f"{time:.3g}" for time in times]
+    right.bar_label(bars, texts, size=8, padding=3)
     right.invert_yaxis()
     right.set(
         xscale="log", xlim=(0.5 * min(times), 4 * max(times)), xlabel="ms a chunk"
