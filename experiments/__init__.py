@@ -20,6 +20,7 @@ Models and what they describe:
     curet_matte        how much does a rough model gain over Lambert's on matte samples?
     ptfe               which model describes a white standard better than Lambert's?
     ball_gloss         how many lobes does the gloss of a photographed ball take?
+    ball_texture       what do twelve photographs of a ball tell about each texel?
     original_phong     when does the original Phong model give wrong results?
     metal_highlight    how does a metal's highlight end, with Beckmann and with GGX?
     anisotropy         which way does a field of tangents stretch a highlight?

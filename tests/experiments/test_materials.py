@@ -7,8 +7,17 @@ import jax
 import numpy as np
 import pytest
 
+import brdffit
+from brdffit.batch.surface import open_surface
 from brdffit.samples import Measurement
-from experiments import ball_gloss, curet_matte, merl_ranking, merl_standins, ptfe
+from experiments import (
+    ball_gloss,
+    ball_texture,
+    curet_matte,
+    merl_ranking,
+    merl_standins,
+    ptfe,
+)
 from tests.data import shared_data
 
 
@@ -83,3 +92,15 @@ def test_a_ball_without_gloss_misses_the_highlight(tmp_path):
     assert float(common["image_error_percent"]) == pytest.approx(6.7, abs=0.1)
     assert float(own["in_highlight_percent"]) < float(common["in_highlight_percent"])
     assert float(row["in_highlight_percent"]) > 5 * float(row["elsewhere_percent"])
+
+
+def test_texels_without_gloss_miss_the_highlight_under_a_new_light(tmp_path):
+    folder = shared_data("sphere_photos", "diligent_ball")
+    surface = open_surface(folder, tmp_path / "stack.zarr")
+    ways = [("lambert", ball_texture.OWN)]
+    number = surface.photographs.index(ball_texture.SHOWN)
+    found = ball_texture.predictions(surface, brdffit.load(folder), [number], ways)
+    (row,) = ball_texture.rows_of(list(found))
+    assert row["error_percent"] == pytest.approx(18.9, abs=0.3)
+    assert row["in_highlight_percent"] > 5 * row["elsewhere_percent"]
+    assert row["converged_percent"] > 99.9
