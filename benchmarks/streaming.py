@@ -99,13 +99,17 @@ def chart(rows):
     """Time and memory over the number of texels."""
     figure = new_figure(7.2, 2.9)
     left, right = figure.subplots(1, 2)
-    x = [row["texels"] for row in rows]
+    x = [row["texels"] / 2**20 for row in rows]
     style = {"color": COLOURS[0], "marker": "o", "markersize": 4}
     left.plot(x, [row["seconds"] for row in rows], **style)
-    left.set(xscale="log", yscale="log", xlabel="texels", ylabel="time of a fit [s]")
+    left.set(xscale="log", yscale="log", ylabel="time of a fit [s]")
     right.plot(x, [row["peak_mb"] for row in rows], **style)
-    right.set(xscale="log", xlabel="texels", ylabel="peak memory of the process [MB]")
+    right.set(xscale="log", ylabel="peak memory of the process [MB]")
     right.set_ylim(0, 1.25 * max(row["peak_mb"] for row in rows))
+    for axes in (left, right):
+        axes.set_xlabel("texels [$2^{20}$]")
+        axes.set_xticks(x, [f"{millions:g}" for millions in x])
+        axes.minorticks_off()
     return figure
 
 
