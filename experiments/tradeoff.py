@@ -39,6 +39,9 @@ def measured(
 ) -> list[dict]:
     """Lines of a table, one for each variant.
 
+    The time of the first run beyond that of others is told apart, as that of compiling;
+    it is close to 0 where an earlier variant has the same program.
+
     Args:
         question: What they answer.
         variants: The first is the one that others are compared with.
