@@ -1,5 +1,8 @@
 """The small problem inside every step: a convex quadratic in a box."""
 
+import functools
+import operator
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -101,7 +104,7 @@ def minimise_in_boxes(
     """
     size = gradient.shape[0]
     if size == 0:
-        return gradient, gradient != gradient
+        return gradient, jnp.zeros(gradient.shape, bool)
     eps = jnp.finfo(hessian.dtype).eps
     eye = jnp.eye(size, dtype=hessian.dtype)
     eye = eye.reshape(size, size, *[1] * (gradient.ndim - 1))
@@ -111,38 +114,62 @@ def minimise_in_boxes(
     )
     scaled = hessian * unit[:, None] * unit[None] + 8 * eps * eye
     slope, low, high = gradient * unit, lower / unit, upper / unit
-
-    def solved(side):
-        """The point with components below (-1), above (1) or free (0), and its pull."""
-        free = side == 0
-        held = jnp.where(free, 0, jnp.where(side < 0, low, high))
-        right = -slope - jnp.sum(scaled * held[None], axis=1)
-        matrix = jnp.where(free[:, None] & free[None], scaled, eye)
-        d = jnp.where(free, solve_positive(matrix, jnp.where(free, right, 0)), held)
-        return d, jnp.sum(scaled * d[None], axis=1) + slope
-
-    def judged(d, pull, side):
-        """Which components are on the wrong side, and where they belong."""
-        near = 8 * eps * jnp.abs(d)
-        small = 8 * eps * (jnp.sum(jnp.abs(scaled * d[None]), axis=1) + jnp.abs(slope))
-        below, above = (side == 0) & (d < low - near), (side == 0) & (d > high + near)
-        loose = ((side < 0) & (pull < -small)) | ((side > 0) & (pull > small))
-        wrong = below | above | (loose & (low < high))
-        return wrong, above.astype(side.dtype) - below.astype(side.dtype)
+    if size == 1:
+        d = -slope / scaled[0]
+        return _on_bounds(d <= low, d >= high, d * unit, lower, upper)
 
     def exchange(state):
-        rounds, wrong, belongs, side, _ = state
-        first = wrong & (jnp.cumsum(wrong, axis=0) == 1)
-        side = jnp.where(jnp.where(rounds > size, first, wrong), belongs, side)
-        d, pull = solved(side)
-        return rounds + 1, *judged(d, pull, side), side, d
+        rounds, _, side, _ = state
+        free = side == 0
+        held = jnp.where(free, 0, jnp.where(side < 0, low, high))
+        matrix = jnp.where(free[:, None] & free[None], scaled, eye)
+        right = jnp.where(free, -slope - _times(scaled, held), held)
+        d = _solve_positive_unrolled(matrix, right)
+        pull = _times(scaled, d) + slope
+        near = 8 * eps * jnp.abs(d)
+        small = 8 * eps * (_times(jnp.abs(scaled), jnp.abs(d)) + jnp.abs(slope))
+        below, above = free & (d < low - near), free & (d > high + near)
+        loose = ((side < 0) & (pull < -small)) | ((side > 0) & (pull > small))
+        wrong = below | above | (loose & (low < high))
+        change = wrong & (_first(wrong) | (rounds < size))
+        belongs = above.astype(side.dtype) - below.astype(side.dtype)
+        return rounds + 1, jnp.any(wrong), jnp.where(change, belongs, side), d
 
-    start = jnp.where(low < high, 0, -1).astype(jnp.int32)
-    d, pull = solved(start)
-    state = (0, *judged(d, pull, start), start, d)
-    _, _, _, side, d = jax.lax.while_loop(
-        lambda state: (state[0] < ROUNDS) & jnp.any(state[1]), exchange, state
+    side = jnp.where(low < high, 0, -1).astype(jnp.int8)
+    state = (0, jnp.array(True), side, gradient)
+    _, _, side, d = jax.lax.while_loop(
+        lambda state: (state[0] < ROUNDS) & state[1], exchange, state
     )
-    on_low, on_high = (side < 0) | (d <= low), (side > 0) | (d >= high)
-    exact = jnp.where(on_low, lower, jnp.where(on_high, upper, d * unit))
-    return exact, ~(on_low | on_high)
+    below, above = (side < 0) | (d <= low), (side > 0) | (d >= high)
+    return _on_bounds(below, above, d * unit, lower, upper)
+
+
+def _on_bounds(below, above, d, lower, upper) -> tuple[Array, Array]:
+    """Components exactly on their bounds, and which are not on one."""
+    return jnp.where(below, lower, jnp.where(above, upper, d)), ~(below | above)
+
+
+def _times(matrix: Array, vector: Array) -> Array:
+    """Products of small matrices and vectors, term by term."""
+    terms = [matrix[:, j] * vector[j][None] for j in range(vector.shape[0])]
+    return functools.reduce(operator.add, terms)
+
+
+def _first(flags: Array) -> Array:
+    """Only the first of the flags that are set."""
+    seen, first = jnp.zeros(flags.shape[1:], bool), []
+    for flag in flags:
+        first.append(flag & ~seen)
+        seen |= flag
+    return jnp.stack(first)
+
+
+def _solve_positive_unrolled(matrix: Array, right: Array) -> Array:
+    """`solve_positive` without a loop, for many systems: its steps become one."""
+    size = right.shape[0]
+    system = jnp.concatenate([matrix, right[:, None]], axis=1)
+    rows = [system[i] for i in range(size)]
+    for k in range(size):
+        rows[k] = rows[k] / rows[k][k][None]
+        rows = [r if i == k else r - r[k][None] * rows[k] for i, r in enumerate(rows)]
+    return jnp.stack([row[-1] for row in rows])

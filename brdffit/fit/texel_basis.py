@@ -185,7 +185,9 @@ def rows(
             named = dict(zip(layout.linear, linear, strict=True))
             return _reflectance(channels, natural, named, seen.wi, seen.wo)
 
-        value, push = jax.linearize(reflectance, *[zero] * count)
+        # what the rows have in common is worked out once, not again in each of them
+        linearised = jax.linearize(reflectance, *[zero] * count)
+        value, push = jax.lax.optimization_barrier(linearised)
         pushed = [
             push(*(one if i == j else zero for j in range(count))) for i in range(count)
         ]

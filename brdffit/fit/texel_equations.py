@@ -6,6 +6,10 @@ loses nothing that matters, because costs and gradients are sums over residuals,
 differences of large sums.
 """
 
+import functools
+import operator
+from collections.abc import Sequence
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -13,6 +17,8 @@ from jaxtyping import Array, Bool, Float
 
 from brdffit.fit.quadratic import minimise_in_boxes
 from brdffit.fit.texel_basis import Observed, TexelProblem, compared, rows
+
+FEW = 32  # so many observations are added one by one
 
 
 class Sums(eqx.Module):
@@ -124,8 +130,16 @@ def _mixed(linear: Array, basis) -> Array:
 
 
 def _sum(first: Array, second: Array) -> Array:
-    """Sum of products over the observations, ``(channel or 1, texel)``."""
-    return jnp.sum(first * second, axis=1)
+    """Sum of products over the observations, ``(channel or 1, texel)``.
+
+    Term by term where they are few, which is three times as fast as a reduction; and
+    shut off from what uses it, lest it be repeated there.
+    """
+    count = first.shape[1]
+    if count > FEW:
+        return jax.lax.optimization_barrier(jnp.sum(first * second, axis=1))
+    terms = [first[:, i] * second[:, i] for i in range(count)]
+    return jax.lax.optimization_barrier(functools.reduce(operator.add, terms))
 
 
 def _vector(entries: list[Array], like: Array) -> Array:
@@ -133,7 +147,7 @@ def _vector(entries: list[Array], like: Array) -> Array:
     shape = like.shape[0], like.shape[2]
     if not entries:
         return jnp.zeros((0, *shape), like.dtype)
-    return jnp.stack([jnp.broadcast_to(entry, shape) for entry in entries])
+    return side_by_side([jnp.broadcast_to(entry, shape) for entry in entries])
 
 
 def _gram(columns: list[Array], like: Array) -> Array:
@@ -144,4 +158,12 @@ def _gram(columns: list[Array], like: Array) -> Array:
     pairs = [
         [_sum(columns[min(i, j)], columns[max(i, j)]) for j in places] for i in places
     ]
-    return jnp.stack([_vector(row, like) for row in pairs])
+    return side_by_side([_vector(row, like) for row in pairs])
+
+
+def side_by_side(arrays: Sequence[Array]) -> Array:
+    """``jnp.stack``, in a form whose loops over texels XLA keeps free of branches."""
+    whole = jnp.zeros((len(arrays), *arrays[0].shape), arrays[0].dtype)
+    for i, array in enumerate(arrays):
+        whole = jax.lax.dynamic_update_index_in_dim(whole, array, i, 0)
+    return whole

@@ -30,8 +30,9 @@ from brdffit.parameters import registry_name
 SIZE = 512  # texels in a block: its rows fit into the second-level cache
 STARTS = {0: 1, 1: 4, 2: 12}  # by number of nonlinear parameters
 MORE_STARTS = 24
-STEPS = 5  # in a round, after which those that need more go on without the others
-MAX_ROUNDS = 12
+# of each round; texels that need more go on without the others
+STEPS = (4, 2, 2, 4, 8, 16, 32)
+MAX_ROUNDS = len(STEPS)
 
 
 def fit_texels(
@@ -80,29 +81,29 @@ def fit_texels(
     whole = bool(np.isfinite(np.sum(texels.value)))
     known_sigma = texels.sigma is not None
 
-    def solve(job: tuple[np.ndarray, Progress | None]) -> tuple[Solved, Found]:
+    def solve(job: tuple[np.ndarray, Progress | None, int]) -> tuple[Solved, Found]:
         """Screen a block, or go on with it."""
-        places, progress = job
+        places, progress, steps = job
         block = _block(texels, places, whole)
         with jax.enable_x64(False):
             begin = progress or screen_block(problem, block, starts)
-            solved = refine_block(problem, block, begin, STEPS)
+            solved = refine_block(problem, block, begin, steps)
             found = examine(problem, solved, known_sigma)
             return jax.tree.map(np.asarray, (solved, found))
 
     count = len(texels)
     every = np.arange(count)
-    jobs = [(places, None) for places in _in_blocks(every)]
+    jobs = [(places, None, STEPS[0]) for places in _in_blocks(every)]
     with ThreadPoolExecutor(threads or len(os.sched_getaffinity(0))) as pool:
         solved, found = _joined(list(pool.map(solve, jobs)), count)
-        for _ in range(max_rounds - 1):
+        for steps in STEPS[1:max_rounds]:
             left = ~solved.progress.converged & (solved.count >= problem.unknowns)
             rest = np.flatnonzero(left)
             if not rest.size:
                 break
             jobs = [
-                (places, jax.tree.map(lambda a, p=places: a[..., p], solved.progress))
-                for places in _in_blocks(rest)
+                (p, jax.tree.map(lambda a, p=p: a[..., p], solved.progress), steps)
+                for p in _in_blocks(rest)
             ]
             again = _joined(list(pool.map(solve, jobs)), rest.size)
             for old, new in zip(
