@@ -15,6 +15,7 @@ from benchmarks.problems import Problem
 from brdffit.parameters import registry_name
 
 SOURCE = Path(__file__).parent / "fit.cc"
+TEXTURE = SOURCE.with_name("texture.cc")
 COMPILER = "g++"
 OPTIONS = ("-std=c++17", "-O3", "-march=native", "-shared", "-fPIC")
 INCLUDES, LIBRARIES = "/usr/include/eigen3", ("-lceres", "-lglog")
@@ -31,17 +32,18 @@ def why_absent() -> str | None:
 
 
 @functools.cache
-def library() -> ctypes.CDLL:
-    """The compiled program; it is built once per process, in a temporary folder."""
+def library(source: Path = SOURCE) -> ctypes.CDLL:
+    """A compiled program; each is built once per process, in a temporary folder."""
     folder = Path(tempfile.mkdtemp(prefix="brdffit-ceres-"))
     try:
-        built = folder / "fit.so"
-        command = (COMPILER, *OPTIONS, f"-I{INCLUDES}", SOURCE, "-o", built)
+        built = folder / "program.so"
+        command = (COMPILER, *OPTIONS, f"-I{INCLUDES}", source, "-o", built)
         subprocess.run((*command, *LIBRARIES), check=True)
         loaded = ctypes.CDLL(str(built))
     finally:
         shutil.rmtree(folder)
-    loaded.fit_make.restype = ctypes.c_void_p
+    if source == SOURCE:
+        loaded.fit_make.restype = ctypes.c_void_p
     return loaded
 
 
