@@ -5,7 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from brdffit.fit.quadratic import minimise_in_box, solve_positive
+from brdffit.fit.quadratic import minimise_in_box, minimise_in_boxes, solve_positive
 
 
 def by_enumeration(hessian, gradient, lower, upper):
@@ -54,3 +54,20 @@ def test_elimination_solves_a_positive_system():
     with jax.enable_x64(True):
         found = solve_positive(jnp.asarray(root.T @ root), jnp.asarray(right))
     np.testing.assert_allclose(root.T @ root @ np.asarray(found), right, atol=1e-11)
+
+
+@pytest.mark.parametrize("size", [1, 3])
+def test_many_boxes_at_once_agree_with_one_at_a_time(size):
+    rng = np.random.default_rng(2)
+    factors = rng.standard_normal((size, size + 2, 50))
+    hessian = np.einsum("iot,jot->ijt", factors, factors)
+    gradient = rng.standard_normal((size, 50))
+    lower, upper = -rng.uniform(0, 0.5, (size, 50)), rng.uniform(0, 0.5, (size, 50))
+    with jax.enable_x64(True):
+        problems = tuple(map(jnp.asarray, (hessian, gradient, lower, upper)))
+        many, free = jax.jit(minimise_in_boxes)(*problems)
+        one, expected = jax.jit(jax.vmap(minimise_in_box, -1, -1))(*problems)
+    np.testing.assert_allclose(many, one, atol=1e-10)
+    np.testing.assert_array_equal(free, expected)
+    many, free = np.asarray(many), np.asarray(free)
+    assert np.all(((many == lower) | (many == upper)) == ~free)  # to the last digit
