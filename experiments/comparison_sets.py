@@ -33,11 +33,11 @@ TRUTHS = {
     "oren_nayar": {"albedo": [0.6, 0.45, 0.3], "sigma": 0.5},
 }
 MEASURED = {
-    "golden yellow paint": "vch_golden_yellow_rgb",
-    "mint metal": "chm_mint_rgb",
+    "golden yellow": "vch_golden_yellow_rgb",
+    "mint": "chm_mint_rgb",
     "military green": "cm_military_green_rgb",
     "white paper": "paper_white_rgb",
-    "flake paint": "irid_flake_paint1_rgb",
+    "iridescent flake paint": "irid_flake_paint1_rgb",
 }
 GRID = Goniometer(
     theta_i=np.arange(5, 81, 8), theta_o=np.arange(2, 83, 6), phi=np.arange(0, 181, 15)

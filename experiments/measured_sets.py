@@ -20,7 +20,7 @@ FILES = {
     "black anodised Invar": "ualoft/AnoBlackNiTEonINVAR.txt",
     "sintered PTFE": "nist_ptfe/ptfe_regular_532nm.csv",
     "white paper": "rgl/paper_white_rgb.bsdf",
-    "golden yellow paint": "rgl/vch_golden_yellow_rgb.bsdf",
+    "golden yellow": "rgl/vch_golden_yellow_rgb.bsdf",
     "photographed ball": "sphere_photos/diligent_ball",
 }
 STAND_INS = ("blue-metallic-paint", "nickel", "pink-felt")

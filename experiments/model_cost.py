@@ -1,6 +1,6 @@
 """Which model leaves how much error on measured materials, and how fast is it?
 
-Two black coatings (UA-LOFT), sintered PTFE (NIST), paper and paint (RGL), photographs
+Two black coatings (UA-LOFT), sintered PTFE (NIST), paper and a golden yellow (RGL), photographs
 of a ball (DiLiGenT) and three stand-ins for materials of MERL (see `merl_standins`),
 the green channel of each, fitted by every model under the log residual, photographs
 under the cosine-weighted one. The error is what the fit leaves: the root mean square of
