@@ -1,11 +1,12 @@
 """Which model leaves how much error on measured materials, and how fast is it?
 
-Two black coatings (UA-LOFT), sintered PTFE (NIST), paper and a golden yellow (RGL), photographs
-of a ball (DiLiGenT) and three stand-ins for materials of MERL (see `merl_standins`),
-the green channel of each, fitted by every model under the log residual, photographs
-under the cosine-weighted one. The error is what the fit leaves: the root mean square of
-the logarithm, of photographs relative to that of the values. The time is that of one
-evaluation of the model in single precision, on one core, the same for all materials.
+Two black coatings (UA-LOFT), sintered PTFE (NIST), paper and a golden yellow (RGL),
+photographs of a ball (DiLiGenT) and three stand-ins for materials of MERL (see
+`merl_standins`), the green channel of each, fitted by every model, photographs under
+the cosine-weighted residual, all else under the log one. The error is what the fit
+leaves: the root mean square of the logarithm, of photographs relative to that of the
+values. The time is that of one evaluation of the model in single precision, on one
+core, the same for all materials.
 
 Materials whose data are not in the folder that `BRDFFIT_DATA` names are left out.
 """
