@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from brdffit.plots.lobe import label_decimals
 from brdffit.plots.spheres import plot_difference, plot_sphere
 from brdffit.plots.style import COLOURS, DASHES, DATA as BLACK, entitle, new_figure
 from experiments.comparison_sets import modelled, sphere
+from experiments.pareto import label_plainly
 from experiments.record import styled
 
 CLASSIC = ("phong", "cook_torrance", "oren_nayar")
@@ -94,7 +94,7 @@ def spheres(found, fitted, rows, resolution):
             shown = plot_difference(line[2 + 2 * place], difference, 0.3)
             line[2 + 2 * place].set_title("difference", size=8)
     bar = figure.colorbar(shown, ax=grid, extend="both", shrink=0.4, pad=0.01)
-    bar.set_label("fitted - right, shown values")
+    bar.set_label("fitted - material, as shown")
     winner = [
         best(rows, "ciede2000", material=name, residual=SHOWN)["model"]
         for name in found
@@ -125,7 +125,9 @@ def lobes(found, fitted):
     for axes, (name, material) in zip(panels, found.items(), strict=False):
         off = {}
         green = np.asarray(material.f_r(wi, wo))[:, 1]
-        axes.plot(angle, np.where(green > 0, green, np.nan), color=BLACK, label="right")
+        axes.plot(
+            angle, np.where(green > 0, green, np.nan), color=BLACK, label="material"
+        )
         for model, colour, dash in zip(CLASSIC, COLOURS, DASHES[1:], strict=False):
             curve = modelled(fitted[name][SHOWN, model].brdf)(wi, wo)[:, 1]
             axes.plot(angle, curve, color=colour, ls=dash, label=model)
@@ -133,7 +135,7 @@ def lobes(found, fitted):
             off[model] = np.sqrt(np.mean(np.log(curve[lit] / green[lit]) ** 2))
         closest.append(min(off, key=off.get))
         axes.set(yscale="log", title=name)
-        label_decimals(axes)
+        label_plainly(axes.yaxis)
         axes.set_xlabel(r"$\theta_o$ [degrees]")
         axes.set_ylabel(r"$f_r$ [1/sr], log scale")
     figure.legend(

@@ -24,7 +24,7 @@ PICTURES = {
     "solvers": ("figure",),
     "six_materials": ("figure",),
     "effect_cost": ("pictures",),
-    "model_comparison": ("spheres",),
+    "model_comparison": ("figure",),
 }
 FIRST = "figure"  # which figure stands before the others
 SHOWN = 6  # figures of one experiment, beyond which only the first is shown

@@ -146,11 +146,15 @@ def logarithmic(axes, rows, unit):
         low, high = np.log(min(values)), np.log(max(values))
         margin = ROOM * max(high - low, 1.5)
         getattr(axes, f"set_{of}lim")(np.exp(low - margin), np.exp(high + margin))
-        axis = getattr(axes, f"{of}axis")
-        decades = (high - low + 2 * margin) / np.log(10)
-        axis.set_major_locator(LogLocator(subs=ticks(decades), numticks=10))
-        axis.set_major_formatter(FuncFormatter(plain))
-        axis.set_minor_locator(NullLocator())
+        label_plainly(getattr(axes, f"{of}axis"))
+
+
+def label_plainly(axis):
+    """Label a logarithmic axis, whose limits are set, with plain numbers."""
+    decades = float(np.diff(np.log10(axis.get_view_interval()))[0])
+    axis.set_major_locator(LogLocator(subs=ticks(decades), numticks=10))
+    axis.set_major_formatter(FuncFormatter(plain))
+    axis.set_minor_locator(NullLocator())
 
 
 def ticks(decades):
