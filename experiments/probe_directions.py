@@ -60,7 +60,7 @@ def measured(resolution, numbers):
     every = Rule(direction.reshape(-1, 3), light.reshape(-1, 3))
     regions, rows, picked = Regions(probe), [], []
     for name, brdf in materials().items():
-        made = plan(scene, brdf, tolerance=1.0)
+        made = plan(scene, brdf, tolerance=1.0, with_=["environment"])
         whole = dataclasses.replace(made, sky=every)
         truth = np.asarray(compiled_shade(brdf, trace(scene, whole)))
 

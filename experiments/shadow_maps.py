@@ -92,10 +92,10 @@ def finding(rows):
         rays, *maps = [row for row in rows if row["question"] == name]
         best = min(maps, key=lambda row: row["error"])
         said.append(
-            f"under a {name} light the {best['variant']} leaves "
-            f"{rounded(100 * best['error'])} % and {saved(best, rays)} of exact rays"
+            f"under a {name} light a {best['variant']} leaves "
+            f"{rounded(100 * best['error'])} % and {saved(best, rays)}"
         )
-    return "; ".join(said).capitalize()
+    return f"Beside exact rays, {'; '.join(said)}"
 
 
 @styled

@@ -103,6 +103,8 @@ def root_mean_square(truth) -> Callable[[Any], float]:
 def saved(row: dict, reference: dict) -> str:
     """How the time of a variant compares, as words with a number."""
     ratio = row["seconds"] / reference["seconds"]
+    if ratio >= 2:
+        return f"takes {rounded(ratio)} times the time"
     if ratio > 1:
         return f"takes {100 * (ratio - 1):.0f} % more time"
     return f"saves {100 * (1 - ratio):.0f} % of the time"
