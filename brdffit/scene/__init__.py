@@ -4,7 +4,7 @@ from brdffit.scene.camera import (
     Orthographic as Orthographic,
     Perspective as Perspective,
 )
-from brdffit.scene.files import load_scene as load_scene, save_scene as save_scene
+from brdffit.scene.files import load_scene as load_scene
 from brdffit.scene.goniometer import Goniometer as Goniometer
 from brdffit.scene.hits import Geometry as Geometry, Hits as Hits
 from brdffit.scene.lights import (
@@ -15,6 +15,7 @@ from brdffit.scene.lights import (
 )
 from brdffit.scene.maps import Map as Map
 from brdffit.scene.materials import Glass as Glass, Mirror as Mirror
+from brdffit.scene.saving import save_scene as save_scene
 from brdffit.scene.scene import Scene as Scene, lit_sphere as lit_sphere
 from brdffit.scene.shadows import ShadowMap as ShadowMap, ShadowRays as ShadowRays
 from brdffit.scene.shapes import Mesh as Mesh, Plane as Plane, Sphere as Sphere

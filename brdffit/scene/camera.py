@@ -81,7 +81,7 @@ class Orthographic(eqx.Module):
         default=ORIGIN, converter=partial(values.point, "target")
     )
     up: Vector = eqx.field(default=UP, converter=partial(values.point, "up"))
-    height: float = eqx.field(default=2.0, converter=partial(values.positive, "height"))
+    height: float = eqx.field(default=2.0, converter=partial(values.length, "height"))
 
     def __check_init__(self) -> None:
         """Refuse an image that has no upright."""

@@ -47,20 +47,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import equinox as eqx
-import jax
-import numpy as np
-import tomli_w
-
-from brdffit.catalogue import description, from_description
-from brdffit.files import replacing
+from brdffit.catalogue import from_description
 from brdffit.models import MODELS
 from brdffit.models.base import AbstractBRDF
 from brdffit.names import look_up
 from brdffit.parameters import check
+from brdffit.scene import values
 from brdffit.scene.camera import Orthographic, Perspective
 from brdffit.scene.lights import LIGHTS
-from brdffit.scene.maps import Map
 from brdffit.scene.materials import SMOOTH
 from brdffit.scene.scene import Scene
 from brdffit.scene.shadows import SHADOWS
@@ -68,17 +62,11 @@ from brdffit.scene.shapes import SHAPES
 from brdffit.scene.sidecar import load_toml
 from brdffit.scene.style import STYLES
 from brdffit.scene.surface import HeightMap, OpacityMap
-from brdffit.scene.triangles import Triangles
 
 CAMERAS = {"orthographic": Orthographic, "perspective": Perspective}
 SINGLE = {"camera": CAMERAS, "shadows": SHADOWS, "style": STYLES}
 LISTS = {"shapes": SHAPES, "lights": LIGHTS}
 INNER = {"height": HeightMap, "opacity": OpacityMap}
-KIND_OF: dict[type[eqx.Module], str] = {
-    made: kind
-    for kinds in (*SINGLE.values(), *LISTS.values(), SMOOTH)
-    for kind, made in kinds.items()
-}
 FILES = ("file", "map")  # keys whose value is a path
 LONGEST = 1000  # characters of a path
 MOST = 10_000  # lights or shapes
@@ -102,31 +90,6 @@ def load_scene(path: str | Path) -> Scene:
         )
     except (ValueError, OSError) as error:
         raise type(error)(f"Scene `{path}`: {error}") from error
-
-
-def save_scene(
-    scene: Scene, path: str | Path, provenance: Mapping[str, Any] | None = None
-) -> None:
-    """Write a scene as a TOML file, with a table on where an image of it came from.
-
-    Attributes that have their default value are left out.
-
-    Raises:
-        OSError: The file cannot be written.
-        ValueError: The scene holds a map or a mesh that did not come from a file.
-    """
-    folder = Path(path).parent
-    table: dict[str, Any] = {"exposure": scene.exposure, "tangents": scene.tangents}
-    table |= {
-        key: value
-        for key, value in _table(scene, folder).items()
-        if key not in (*table, *LISTS)
-    }
-    table |= {key: [_table(p, folder) for p in getattr(scene, key)] for key in LISTS}
-    if provenance is not None:
-        table["provenance"] = dict(provenance)
-    with replacing(path) as temporary:
-        temporary.write_text(tomli_w.dumps(table), encoding="utf-8")
 
 
 def _scene(table: dict[str, Any], folder: Path) -> Scene:
@@ -165,43 +128,64 @@ def _made(place: str, table: dict[str, Any], made: Any, folder: Path) -> Any:
         for key, value in table.items():
             if key == "material":
                 inside[key] = _material(value)
-            elif key in INNER:
+            elif key in INNER and made in SHAPES.values():  # a camera has a height, too
                 _require_table(key, value)
                 inside[key] = _made(key, value, INNER[key], folder)
             elif key in FILES:
-                if not isinstance(value, str) or len(value) > LONGEST:
-                    raise ValueError(f"`{key}` must name a file, but is {value!r:.60}.")
-                inside[key] = folder / value
+                inside[key] = _file(key, value, folder)
         return made(**inside)
     except (ValueError, OSError) as error:
         raise type(error)(f"in `{place}`, {error}") from error
 
 
+def _file(key: str, value: Any, folder: Path) -> Path:
+    """The file that a key names, beside the scene."""
+    if not isinstance(value, str) or len(value) > LONGEST:
+        raise ValueError(f"`{key}` must name a file, but is {value!r:.60}.")
+    if os.path.isdir(path := folder / value):  # also where no name can be
+        raise ValueError(f"`{key}` must name a file, but `{path}` is a folder.")
+    return path
+
+
 def _material(table: Any) -> Any:
     """What a shape is made of, from its table."""
-    _require_table("material", table)
-    if not isinstance(table.get("model"), str):
-        raise ValueError(
-            "`material` must say its `model`: mirror, glass, or one of the catalogue."
-        )
-    known = SMOOTH | MODELS
-    made = look_up(known, table["model"], "`model` of `material`,")
+    made = _model("material", table, SMOOTH | MODELS)
     if table["model"] in SMOOTH:
         rest = {key: value for key, value in table.items() if key != "model"}
         _check_keys(rest, made)
         return made(**rest)
+    _check_brdf(table, made)
+    brdf = from_description(table)
+    check(brdf)
+    return brdf
+
+
+def _model(place: str, table: Any, known: Mapping[str, Any]) -> Any:
+    """The class that a table says it is made by."""
+    _require_table(place, table)
+    if not isinstance(table.get("model"), str):
+        smooth = "mirror, glass, or " if known is not MODELS else ""
+        raise ValueError(
+            f"`{place}` must say its `model`: {smooth}one of the catalogue."
+        )
+    return look_up(known, table["model"], f"`model` of `{place}`,")
+
+
+def _check_brdf(table: dict[str, Any], made: Any) -> None:
+    """Refuse values that no model takes, with their key; parts of a sum alike."""
     fields = {field.name: field for field in dataclasses.fields(made)}
     inner = table.get("parameters", {})
     _require_table("parameters", inner)
-    for key in (*table, *inner):
-        if key not in ("model", "parameters"):
-            look_up(fields, key, "key")
-    try:
-        brdf = from_description(table)
-    except TypeError as error:
-        raise ValueError(f"`material` cannot be made: {error}.") from error
-    check(brdf)
-    return brdf
+    for key, value in (table | inner).items():
+        if key in ("model", "parameters"):
+            continue
+        field = look_up(fields, key, "key")
+        if field.type is AbstractBRDF:
+            _check_brdf(value, _model(key, value, MODELS))
+        elif field.metadata.get("static"):
+            values.boolean(key, value)
+        else:
+            values.finite(key, value)
 
 
 def _require_table(place: str, table: Any) -> None:
@@ -212,53 +196,9 @@ def _require_table(place: str, table: Any) -> None:
 def _check_keys(table: Mapping[str, Any], made: Any) -> None:
     fields = {field.name: field for field in dataclasses.fields(made)}
     for key in table:
+        if not fields:
+            raise ValueError(f"key `{key}` is none: this kind has no keys.")
         look_up(fields, key, "key")
     for name, field in fields.items():
         if field.default is dataclasses.MISSING and name not in table:
             raise ValueError(f"key `{name}` is missing.")
-
-
-def _table(part: eqx.Module, folder: Path) -> dict[str, Any]:
-    """What makes a part again: its kind and what differs from the default."""
-    table: dict[str, Any] = {}
-    if type(part) in KIND_OF:
-        name = "model" if KIND_OF[type(part)] in SMOOTH else "kind"
-        table[name] = KIND_OF[type(part)]
-    for field in dataclasses.fields(part):
-        value = getattr(part, field.name)
-        if value is not None and not _is_default(field, value):
-            table[field.name] = _plain(value, folder)
-    return table
-
-
-def _plain(value: Any, folder: Path) -> Any:
-    """A value as TOML can hold it."""
-    if isinstance(value, Map | Triangles):
-        if not value.file:
-            raise ValueError(
-                f"A scene with {value} cannot be written: save it as a file first, "
-                "and name that in the scene."
-            )
-        return Path(os.path.relpath(value.file, folder)).as_posix()
-    if isinstance(value, AbstractBRDF):
-        return description(value)
-    if isinstance(value, eqx.Module):
-        return _table(value, folder)
-    if isinstance(value, np.ndarray | jax.Array):
-        return np.asarray(value, np.float64).tolist()
-    return list(value) if isinstance(value, tuple) else value
-
-
-def _is_default(field: dataclasses.Field, value: Any) -> bool:
-    if field.default is dataclasses.MISSING:
-        return False
-    if isinstance(value, eqx.Module):
-        return isinstance(field.default, eqx.Module) and bool(
-            eqx.tree_equal(value, field.default)
-        )
-    default = (
-        np.broadcast_to(field.default, np.shape(value))
-        if (np.ndim(value) >= np.ndim(field.default))
-        else field.default
-    )
-    return bool(np.array_equal(value, default))

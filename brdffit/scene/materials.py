@@ -29,10 +29,11 @@ class Mirror(eqx.Module):
     Attributes:
         eta, k: Real and imaginary refractive index, a number for all channels or one
             for each. Without ``k`` the mirror reflects all light at every angle.
-        specular: Factor of the reflectance.
+        specular: Factor of the reflectance, at most 1.
 
     Raises:
-        ValueError: An index is negative, or ``eta`` is 0.
+        ValueError: An index is negative, ``eta`` is 0, ``specular`` is above 1, or they
+            differ in their number of channels.
     """
 
     eta: Float[Array, "..."] = eqx.field(
@@ -50,6 +51,25 @@ class Mirror(eqx.Module):
         """Refuse an index that no metal has."""
         if not (self.eta > 0).all():
             raise ValueError(f"`eta` must be above 0, but is {self.eta.tolist()}.")
+        if not (self.specular <= 1).all():
+            raise ValueError(
+                f"`specular` must not be above 1, but is {self.specular.tolist()}."
+            )
+        if len(sizes := self._sizes) > 1:
+            raise ValueError(
+                "`eta`, `k` and `specular` must have the same number of channels, but "
+                f"have {', '.join(map(str, sorted(sizes)))}."
+            )
+
+    @property
+    def channels(self) -> int | None:
+        """Number of channels, or None when each value holds for all."""
+        return next(iter(self._sizes), None)
+
+    @property
+    def _sizes(self) -> set[int]:
+        given = (self.eta, self.k, self.specular)
+        return {value.size for value in given if value is not None and value.ndim}
 
     def reflected(self, cos_theta: Cosines, channels: int) -> Shares:
         """Share of the light that is reflected, per ray and channel."""

@@ -8,15 +8,17 @@ import equinox as eqx
 import numpy as np
 
 from brdffit.geometry import TANGENTS
-from brdffit.models.base import RGB, AbstractBRDF
+from brdffit.models.base import RGB
 from brdffit.names import look_up
 from brdffit.scene import values
 from brdffit.scene.camera import Camera, Orthographic
 from brdffit.scene.lights import Ambient, Directional, Environment, Light, Point
 from brdffit.scene.shadows import ShadowRays, Shadows
-from brdffit.scene.shapes import Shape, Sphere
+from brdffit.scene.shapes import Material, Shape, Sphere
 from brdffit.scene.style import Gooch
 from brdffit.types import AnyArray
+
+DEEPEST = 1000  # reflections and refractions that are followed
 
 
 class Scene(eqx.Module):
@@ -49,7 +51,9 @@ class Scene(eqx.Module):
     tangents: str = eqx.field(static=True, default="cylindrical", converter=str)
     shadows: Shadows = ShadowRays()
     depth: int = eqx.field(
-        static=True, default=6, converter=partial(values.whole, "depth", least=0)
+        static=True,
+        default=6,
+        converter=partial(values.whole, "depth", least=0, most=DEEPEST),
     )
     style: Gooch | None = None
 
@@ -74,8 +78,8 @@ class Scene(eqx.Module):
                 "`style` needs a directional light or a point light in `lights`."
             )
         for number, shape in enumerate(self.shapes):
-            if isinstance(shape.material, AbstractBRDF):
-                self.check_channels(shape.material.channels, f"`shapes[{number}]`")
+            if (count := _channels(shape.material)) is not None:
+                self.check_channels(count, f"`shapes[{number}]`")
 
     @property
     def channels(self) -> int | None:
@@ -86,7 +90,7 @@ class Scene(eqx.Module):
         """Number of channels of an image: as asked for, else that of the lights or RGB.
 
         Raises:
-            ValueError: The lights or a material have another number.
+            ValueError: The lights, a material or the style have another number.
         """
         channels = wanted or self.channels or RGB
         if self.channels not in (None, channels):
@@ -94,11 +98,16 @@ class Scene(eqx.Module):
                 f"Lights have {self.channels} channels, but {channels} are asked for."
             )
         for number, shape in enumerate(self.shapes):
-            found = shape.material
-            if isinstance(found, AbstractBRDF) and found.channels != channels:
+            if (count := _channels(shape.material)) not in (None, channels):
                 raise ValueError(
-                    f"The material of `shapes[{number}]` has {found.channels} "
+                    f"The material of `shapes[{number}]` has {count} "
                     f"channels, but {channels} are asked for."
+                )
+        for key in ("cool", "warm") if self.style else ():
+            if (colour := getattr(self.style, key)).shape not in ((), (channels,)):
+                raise ValueError(
+                    f"`{key}` of `style` must be one number or {channels}, one for "
+                    f"each channel, but has {colour.size}."
                 )
         return channels
 
@@ -129,6 +138,11 @@ class Scene(eqx.Module):
     def _channels_of_lights(self) -> set[int]:
         shapes = {light.amount.shape for light in self.lights} - {()}
         return {count for (count,) in shapes}
+
+
+def _channels(material: Material | None) -> int | None:
+    """How many a material has, or None where it takes any number."""
+    return getattr(material, "channels", None)
 
 
 def lit_sphere(

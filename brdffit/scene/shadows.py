@@ -30,7 +30,7 @@ class ShadowMap(eqx.Module):
     resolution: int = eqx.field(
         static=True,
         default=1024,
-        converter=partial(values.whole, "resolution", least=1),
+        converter=partial(values.whole, "resolution", least=1, most=values.SIDE),
     )
     slope_bias: float = eqx.field(
         default=1.0, converter=partial(values.not_negative, "slope_bias")

@@ -34,7 +34,7 @@ class Sphere(eqx.Module):
     centre: Numbers = eqx.field(
         default=(0.0, 0.0, 0.0), converter=partial(values.point, "centre")
     )
-    radius: float = eqx.field(default=1.0, converter=partial(values.positive, "radius"))
+    radius: float = eqx.field(default=1.0, converter=partial(values.length, "radius"))
     material: Material | None = None
     height: HeightMap | None = None
     opacity: OpacityMap | None = None
@@ -104,7 +104,7 @@ class Mesh(eqx.Module):
     position: Numbers = eqx.field(
         default=(0.0, 0.0, 0.0), converter=partial(values.point, "position")
     )
-    scale: float = eqx.field(default=1.0, converter=partial(values.positive, "scale"))
+    scale: float = eqx.field(default=1.0, converter=partial(values.length, "scale"))
     smooth: bool = eqx.field(
         static=True, default=False, converter=partial(values.boolean, "smooth")
     )

@@ -13,11 +13,13 @@ from brdffit.types import AnyArray
 Numbers: TypeAlias = float | Sequence[Any] | AnyArray  # as users write them
 
 TOLERANCE = 1e-3  # how far from 1 the length of a direction may be
+LARGEST = 1e12  # number of a place or a length, beyond which digits are lost
+SIDE = 32_768  # most pixels along one side of an image
 ROUNDING = 1e-15  # and within which it is as good as 1 and left as it is
 
 
-def whole(key: str, value: Any, least: int) -> int:
-    """A whole number, ``least`` or above.
+def whole(key: str, value: Any, least: int, most: int | None = None) -> int:
+    """A whole number, ``least`` or above, and ``most`` or below.
 
     Raises:
         ValueError: It is anything else.
@@ -27,6 +29,8 @@ def whole(key: str, value: Any, least: int) -> int:
         raise ValueError(
             f"`{key}` must be a whole number, {least} or above, but is {value!r}."
         )
+    if most is not None and int(value) > most:
+        raise ValueError(f"`{key}` must be {most} or below, but is {value!r:.60}.")
     return int(value)
 
 
@@ -36,7 +40,7 @@ def positive(key: str, value: Any) -> float:
     Raises:
         ValueError: It is anything else.
     """
-    array = _numbers(key, value)
+    array = finite(key, value)
     if array.ndim or not array > 0:
         raise ValueError(f"`{key}` must be one number above 0, but is {value!r}.")
     return float(array)
@@ -48,7 +52,7 @@ def share(key: str, value: Any) -> float:
     Raises:
         ValueError: It is anything else.
     """
-    array = _numbers(key, value)
+    array = finite(key, value)
     if array.ndim or not 0 <= array <= 1:
         raise ValueError(f"`{key}` must be a number from 0 to 1, but is {value!r}.")
     return float(array)
@@ -61,21 +65,39 @@ def size(key: str, value: Any) -> int | tuple[int, int]:
         ValueError: It is anything else.
     """
     if isinstance(value, list | tuple) and len(value) == 2:
-        rows, columns = (whole(key, number, least=1) for number in value)
+        rows, columns = (whole(key, number, 1, SIDE) for number in value)
         return rows, columns
-    return whole(key, value, least=1)
+    return whole(key, value, 1, SIDE)
 
 
 def point(key: str, value: Any) -> Float[np.ndarray, "3"]:
-    """Three finite numbers.
+    """Three numbers, none so large that digits are lost.
 
     Raises:
         ValueError: It is anything else.
     """
-    array = _numbers(key, value)
+    array = finite(key, value)
     if array.shape != (3,):
         raise ValueError(f"`{key}` must be three numbers, but is {value!r}.")
+    if np.any(np.abs(array) > LARGEST):
+        raise ValueError(
+            f"`{key}` must have no number beyond {LARGEST:g}, but is {value!r}."
+        )
     return array
+
+
+def length(key: str, value: Any) -> float:
+    """A number above zero whose square is a number, too.
+
+    Raises:
+        ValueError: It is anything else.
+    """
+    found = positive(key, value)
+    if not 1 / LARGEST <= found <= LARGEST:
+        raise ValueError(
+            f"`{key}` must lie from {1 / LARGEST:g} to {LARGEST:g}, but is {value!r}."
+        )
+    return found
 
 
 def pair(key: str, value: Any) -> Float[np.ndarray, "2"]:
@@ -84,7 +106,7 @@ def pair(key: str, value: Any) -> Float[np.ndarray, "2"]:
     Raises:
         ValueError: It is anything else.
     """
-    array = _numbers(key, value)
+    array = finite(key, value)
     if array.shape not in ((), (2,)) or np.any(array <= 0):
         raise ValueError(
             f"`{key}` must be one or two numbers above 0, but is {value!r}."
@@ -109,7 +131,7 @@ def spectrum(key: str, value: Any) -> Float[np.ndarray, "..."]:
     Raises:
         ValueError: It is anything else.
     """
-    array = _numbers(key, value)
+    array = finite(key, value)
     if array.ndim > 1 or array.size == 0 or np.any(array < 0):
         raise ValueError(
             f"`{key}` must be a number or a list of numbers, none negative, "
@@ -124,7 +146,7 @@ def angles(key: str, value: Any) -> Float[np.ndarray, " angle"]:
     Raises:
         ValueError: It is anything else.
     """
-    array = np.atleast_1d(_numbers(key, value))
+    array = np.atleast_1d(finite(key, value))
     if array.ndim > 1 or array.size == 0:
         raise ValueError(f"`{key}` must be a list of angles, but is {value!r}.")
     return array
@@ -150,7 +172,7 @@ def not_negative(key: str, value: Any) -> float:
     Raises:
         ValueError: It is anything else.
     """
-    array = _numbers(key, value)
+    array = finite(key, value)
     if array.ndim or array < 0:
         raise ValueError(f"`{key}` must be one number not below 0, but is {value!r}.")
     return float(array)
@@ -172,7 +194,12 @@ def unit_vector(key: str, value: Any) -> Float[np.ndarray, "3"]:
     return array if abs(length - 1) < ROUNDING else array / length
 
 
-def _numbers(key: str, value: Any) -> Float[np.ndarray, "..."]:
+def finite(key: str, value: Any) -> Float[np.ndarray, "..."]:
+    """Finite numbers, one or nested lists of them.
+
+    Raises:
+        ValueError: They are anything else.
+    """
     try:
         array = np.asarray(value)
     except ValueError:  # lists of different lengths

@@ -93,3 +93,9 @@ def test_a_style_needs_a_light_with_a_place_or_a_direction():
 
     with pytest.raises(ValueError, match="`style` needs a directional light"):
         Scene(Orthographic(4), (Sphere(),), (Ambient(1.0),), style=Gooch())
+
+
+def test_colours_must_fit_the_channels_of_the_image():
+    sentence = "`cool` of `style` must be one number or 3, one for each channel, but h"
+    with pytest.raises(ValueError, match=sentence):
+        picture(Gooch(cool=[0.0, 0.5]))

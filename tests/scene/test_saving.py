@@ -1,0 +1,37 @@
+import equinox as eqx
+import pytest
+
+from brdffit.scene import (
+    Directional,
+    HeightMap,
+    Orthographic,
+    Perspective,
+    Scene,
+    Sphere,
+    load_scene,
+    save_scene,
+)
+
+SUN = Directional([0.0, 0.0, 1.0])
+
+
+def test_a_scene_from_arrays_says_what_it_needs_to_be_written(tmp_path):
+    lumpy = Sphere(height=HeightMap([[0.0, 1.0]]))
+    scene = Scene(Orthographic(4), (lumpy,), (Directional([0, 0, 1]),))
+    with pytest.raises(ValueError, match="cannot be written: save it as a file first"):
+        save_scene(scene, tmp_path / "a.toml")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "camera",
+    [
+        Orthographic((4, 6), [0, 0.6, 0.8], [1, 2, 3], [1, 0, 0], height=6),
+        Perspective(4, [0, 1, 5], [0, 1, 0], [1, 1, 0], field_of_view=25),
+    ],
+    ids=["orthographic", "perspective"],
+)
+def test_a_camera_with_everything_set_is_read_as_it_was_written(tmp_path, camera):
+    scene = Scene(camera, (Sphere(),), (SUN,))
+    save_scene(scene, tmp_path / "a.toml")
+    assert eqx.tree_equal(load_scene(tmp_path / "a.toml"), scene)
