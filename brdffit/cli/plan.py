@@ -75,8 +75,9 @@ def plan(
     console.print_line()
     console.print_line(
         f"Errors are root mean squares of what leaving an effect out would change, "
-        f"relative to the image; those above {made.tolerance:g} are simulated. Costs "
-        "are arithmetic operations per pixel."
+        f"relative to the image; those above {made.tolerance:g} are simulated, but a "
+        "model is only changed by --with and --without. Costs are arithmetic "
+        "operations per pixel."
     )
     for sentence in made.overridden:
         console.print_line(sentence)

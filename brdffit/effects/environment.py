@@ -35,6 +35,10 @@ def decide(view: View) -> Decision:
     probe = view.scene.probe
     if probe is None:
         return not_called_for(NAME, "there is no light probe")
+    if len(smooth_shapes(view.scene.shapes)) == len(view.scene.shapes):
+        why = "there is a light probe, which is seen but lights nothing by itself"
+        seen = view.judged(NAME, 1.0, 0.0, why)
+        return dataclasses.replace(seen, number=LEAST)
     number, error = count(view)
     brdf = _assumed(view)
     w = jnp.array([0.0, 0.0, 1.0])

@@ -39,19 +39,19 @@ def decide(view: View) -> Decision:
     error = max(
         _error(_by_name(each)) for each in extremes(brdf, view.within, linear=True)
     )
+    cost = operations(
+        partial(fresnel.conductor, jnp.ones(())),
+        jnp.ones(view.channels),
+        jnp.ones(view.channels),
+    )
     if "eta" in known:
-        cost = operations(
-            partial(fresnel.conductor, jnp.ones(())),
-            jnp.ones(view.channels),
-            jnp.ones(view.channels),
-        )
         why = f"{name} has it; Schlick would be off by {error:.2g}"
         return Decision(NAME, True, why, error, cost, True)
     why = f"{name} has Schlick's, off by {error:.2g} from glass of the same f0"
     if isinstance(brdf, GGX | GGXLobe):
         why += "; --with exact_fresnel renders that"
     # a model is what it is: only the user puts another in its place
-    return Decision(NAME, False, why, error, 0.0, False)
+    return Decision(NAME, False, why, error, cost, False)
 
 
 def added(brdf: AbstractBRDF) -> AbstractBRDF:

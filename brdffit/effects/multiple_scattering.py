@@ -1,5 +1,6 @@
 """Light that facets reflect more than once, which most models lose."""
 
+import jax.numpy as jnp
 import numpy as np
 
 from brdffit.effects.decision import Decision, View, not_called_for, operations
@@ -22,11 +23,13 @@ def decide(view: View) -> Decision:
     if brdf is None:
         return not_called_for(NAME, "the BRDF is not known yet")
     name = registry_name(brdf)
+    cost = operations(
+        lambda w: multiple_scattering.kulla_conty(
+            w, w, jnp.ones(view.channels), jnp.ones(())
+        ),
+        np.array([0.0, 0.0, 1.0], np.float32),
+    )
     if isinstance(brdf, GGXMultiscatter):
-        cost = operations(
-            lambda w: multiple_scattering.kulla_conty(w, w, brdf.f0, brdf.alpha),
-            np.array([0.0, 0.0, 1.0], np.float32),
-        )
         error = max(_lost(each) for each in extremes(brdf, view.within, linear=True))
         return Decision(NAME, True, f"{name} has it", error, cost, True)
     error = max(_lost(each) for each in extremes(brdf, view.within, linear=True))
@@ -37,11 +40,9 @@ def decide(view: View) -> Decision:
         if type(brdf) is GGX
         else "no other model in the catalogue is the same with it"
     )
-    judged = view.judged(
-        NAME, error, 0.0, f"{name} loses {error:.2g} at most; {remedy}"
-    )
+    why = f"{name} loses {error:.2g} at most; {remedy}"
     # a model is what it is: only the user puts another in its place
-    return Decision(NAME, False, judged.why, error, 0.0, False)
+    return Decision(NAME, False, why, error, cost, False)
 
 
 def added(brdf: AbstractBRDF) -> AbstractBRDF:

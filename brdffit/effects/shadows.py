@@ -1,12 +1,14 @@
 """Shadows: what stands between a point and a light."""
 
 from collections.abc import Callable
+from functools import partial
 
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
-from brdffit.effects import shadow_map
+from brdffit.effects import cut_out, shadow_map
+from brdffit.effects.bounces import smooth_shapes
 from brdffit.effects.decision import (
     Decision,
     View,
@@ -30,22 +32,28 @@ Visible = Float[np.ndarray, "point light"]
 def decide(view: View) -> Decision:
     """A scene calls for it when something stands between a visible point and a light.
 
-    A lone convex shape never does, nor does anything in ambient light. Otherwise the
-    points of the coarse view are looked at; where none of ``n`` lies in shadow, a share
-    of 3/n may yet, and its error counts unless the view has every pixel.
+    A lone convex shape never does, nor does anything in ambient light, and mirrors and
+    glass show none. Otherwise the points of the coarse view are looked at, those behind
+    holes, too; where none of ``n`` lies in shadow, a share of 3/n may yet, and its
+    error counts unless the view has every pixel.
     """
     scene = view.scene
     if all(isinstance(light, Ambient) for light in scene.lights):
         return not_called_for(NAME, "nothing casts a shadow in ambient light")
     if len(scene.shapes) == 1 and scene.shapes[0].convex:
         return not_called_for(NAME, "a lone convex shape casts no shadow on itself")
-    hits = view.hits
+    if len(smooth_shapes(scene.shapes)) == len(scene.shapes):
+        return not_called_for(NAME, "no shadow shows on mirrors and glass")
+    meet, hits = view.geometry.first_hits, view.hits
+    if any(shape.opacity is not None for shape in scene.shapes):
+        meet = partial(cut_out.first_hits, view.geometry)
+        hits = meet(*view.rays)
     if scene.probe is not None:
         some = np.linspace(0, len(hits.ray) - 1, min(len(hits.ray), PROBE_POINTS))
         hits = hits.take(np.unique(some.astype(int)))
     light = incident(scene.lights, hits.position, view.channels, view.coarse_sky)
     each = irradiance(light, hits.normal)
-    seen = by_rays(view.geometry, view.geometry.first_hits, hits, light)
+    seen = by_rays(view.geometry, meet, hits, light)
     dark = ((1 - seen)[..., None] * each).sum(axis=1)
     error = relative(dark, each.sum(axis=1))
     why = "something stands between visible points and a light"

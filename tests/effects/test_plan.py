@@ -5,7 +5,7 @@ import pytest
 from brdffit.effects import EFFECTS, plan
 from brdffit.effects.exact_fresnel import added, removed
 from brdffit.models import MODELS
-from brdffit.render import trace
+from brdffit.render import render, trace
 from brdffit.scene import (
     Ambient,
     Directional,
@@ -80,6 +80,28 @@ def test_what_could_call_for_an_effect_may_not(effect, shapes, lights, why):
     decision = plan(Scene(CAMERA, shapes, lights), GGX).decisions[effect]
     assert not decision.on
     assert decision.why.startswith(why)
+
+
+def test_shadows_seen_through_holes_are_estimated_as_large_as_they_are():
+    """The near half of a hollow ball darkens the far half, seen through its holes."""
+    ball = Sphere(opacity=OpacityMap((np.indices((16, 32)).sum(0) % 8 > 2) * 1.0))
+    scene = Scene(CAMERA, (ball,), (SUN,))
+    made = plan(scene, GGX)
+    assert made.on("shadows")
+    grey = MODELS["lambert"](albedo=1.0)
+    bright = render(grey, scene, plan(scene, grey, without=["shadows"]))
+    change = bright - render(grey, scene, made)
+    measured = np.sqrt(np.mean(change**2) / np.mean(bright**2))
+    assert made.decisions["shadows"].error == pytest.approx(measured, rel=0.01)
+
+
+def test_mirrors_and_glass_alone_call_for_no_light_but_what_is_seen_in_them():
+    shapes = (Sphere([-1, 0, 0], 0.5, Mirror()), Sphere([1, 0, 0], 0.5, Glass()))
+    scene = Scene(CAMERA, shapes, (Environment(SKY), SUN))
+    made = plan(scene, GGX)
+    assert effects_of(made) == {"environment", "bounces"}
+    more = plan(scene, GGX, with_=["shadows"])
+    np.testing.assert_array_equal(render(GGX, scene, made), render(GGX, scene, more))
 
 
 def test_shadows_that_fall_elsewhere_are_left_out():
@@ -159,6 +181,7 @@ def test_lost_energy_is_told_and_given_back_only_when_asked_for():
     made = plan(lit_sphere(8), rough)
     decision = made.decisions["multiple_scattering"]
     assert decision.error == pytest.approx(np.log(2), rel=0.01)
+    assert decision.cost > made.decisions["exact_fresnel"].cost > 0
     assert not decision.on
     assert made.model(rough) is rough
     asked = plan(lit_sphere(8), rough, with_=["multiple_scattering"])
