@@ -16,7 +16,7 @@ from benchmarks.measure import use_one_core
 from benchmarks.record import RESULTS, facts
 from brdffit.compiled import compiled
 from brdffit.models import MODELS
-from brdffit.plots.style import COLOURS, MUTED, new_figure
+from brdffit.plots.style import COLOURS, MUTED, entitle, new_figure
 from brdffit.render import shade, trace
 from brdffit.scene import Ambient, Directional, Orthographic, Point, Scene, Sphere
 from experiments.record import Record, styled
@@ -62,20 +62,29 @@ def ratios(brdf, scene, turns: int) -> np.ndarray:
 
 
 @styled
-def figure(rows: list[dict]):
+def figure(rows: list[dict], turns: int):
     """Median ratios with a line over their quartiles, and the limit."""
-    drawn = new_figure(6.4, 3.0)
+    drawn = new_figure(6.4, 3.4)
     axes = drawn.subplots()
     for place, row in enumerate(rows):
         ends = [float(end) for end in row["quartiles"].split("-")]
-        axes.plot(ends, (place, place), color=COLOURS[0], linewidth=1)
-        axes.plot(row["ratio"], place, "o", color=COLOURS[0], markersize=5)
+        told = ("quartiles", f"median of {turns} turns") if not place else (None, None)
+        axes.plot(ends, (place, place), color=COLOURS[0], linewidth=1, label=told[0])
+        axes.plot(
+            row["ratio"], place, "o", color=COLOURS[0], markersize=5, label=told[1]
+        )
     axes.axvline(MOST, color=MUTED, linestyle="--", label=f"limit {MOST}")
     names = [f"{row['scene']}, {row['model']}" for row in rows]
     axes.set_yticks(range(len(rows)), names)
     axes.invert_yaxis()
     axes.set_xlabel("time with brdffit / time of a program without effects")
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), frameon=False)
+    drawn.legend(loc="outside lower center", ncols=3)
+    medians = [row["ratio"] for row in rows]
+    entitle(
+        drawn,
+        f"Effects that a scene lacks cost nothing: {min(medians):.2f} to "
+        f"{max(medians):.2f} times the time of a program without them",
+    )
     return drawn
 
 
@@ -99,7 +108,7 @@ def main(folder=RESULTS / "absent", turns=TURNS, resolution=256):
             )
             print(*rows[-1].values(), flush=True)
     record.table(rows)
-    record.figure(figure(rows))
+    record.figure(figure(rows, turns))
     record.close(**facts(turns))
     return rows
 

@@ -113,7 +113,7 @@ def finding(picked):
 @styled
 def chart(rows, picked, words):
     """Error against directions and against time."""
-    figure = new_figure(7.6, 3.9)
+    figure = new_figure(7.6, 4.2)
     left, right = figure.subplots(1, 2, sharey=True)
     names = list(dict.fromkeys(row["model"] for row in rows))
     for n, name in enumerate(names):
@@ -130,7 +130,8 @@ def chart(rows, picked, words):
             color=COLOURS[n],
         )
     for tolerance in TOLERANCES:
-        left.axhline(tolerance, color="#6b6b6b", linewidth=0.7)
+        label = "tolerance" if tolerance == TOLERANCES[0] else None
+        left.axhline(tolerance, color="#6b6b6b", linewidth=0.7, label=label)
     left.set(
         xscale="log",
         yscale="log",
@@ -139,7 +140,7 @@ def chart(rows, picked, words):
     left.set_ylabel("error of the image (relative RMS), log scale")
     right.set(xscale="log", xlabel="time to trace and shade [ms], log scale")
     figure.legend(
-        *left.get_legend_handles_labels(), loc="outside lower center", ncols=5
+        *left.get_legend_handles_labels(), loc="outside lower center", ncols=3
     )
     entitle(figure, words)
     return figure

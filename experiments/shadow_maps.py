@@ -103,12 +103,21 @@ def pictures(images):
     """Shadows without, by rays and by two maps."""
     figure = new_figure(7.6, 4.2)
     grid = figure.subplots(2, 4)
-    shown = {None: "no shadow", 0: "rays", SHOWN: f"map, {SHOWN}", 256: "map, 256"}
+    shown = {
+        None: "no shadow",
+        0: "rays",
+        SHOWN: f"map, {SHOWN} px",
+        256: "map, 256 px",
+    }
     for line, name in zip(grid, LIGHTS, strict=True):
         for axes, (size, title) in zip(line, shown.items(), strict=True):
             plot_sphere(axes, images[name, size], 0.8)
             axes.set_title(f"{name}: {title}")
-    entitle(figure, f"Shadows by rays and by maps of {SHOWN} and 256 pixels")
+    entitle(
+        figure,
+        f"The edge of a shadow has steps in a map of {SHOWN} pixels, and hardly in one "
+        "of 256",
+    )
     return figure
 
 
