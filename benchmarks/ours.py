@@ -10,7 +10,7 @@ from benchmarks.problems import Problem
 from brdffit.fit.blocks import blocks
 from brdffit.fit.conditions import bounded_problem
 from brdffit.fit.fit import MAX_STEPS
-from brdffit.fit.search import RTOL, solve
+from brdffit.fit.search import RTOL, search
 
 OWN = (0.0,)  # the tolerance is the engine's own
 
@@ -37,8 +37,8 @@ def solve_alone(
     def run(tolerance):
         del tolerance
         with jax.enable_x64(True):
-            met = solve(ready, starts, 1, rtol=rtol, max_steps=max_steps)
-        return met.x[0], int(met.steps[0])
+            met = search(ready, starts, rtol, max_steps)
+        return met.x, met.steps
 
     return Contestant(f"brdffit {precision}", run, tolerances=OWN)
 

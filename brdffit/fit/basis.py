@@ -7,8 +7,6 @@ Derivatives are forward-mode and exact: a derivative along a parameter in which 
 affine *is* its basis function.
 """
 
-import functools
-import operator
 from functools import partial
 
 import equinox as eqx
@@ -24,8 +22,6 @@ from brdffit.fit.transforms import Layout, to_natural
 from brdffit.models import AbstractBRDF
 from brdffit.parameters import replace, values
 from brdffit.types import AnyArray
-
-FEW_LIGHTS = 16  # so many are added one by one, ten times faster than by a reduction
 
 
 class Problem(eqx.Module):
@@ -66,38 +62,37 @@ class Problem(eqx.Module):
         return np.array([p for n in self.layout.nonlinear for p in places[n]], int)
 
 
-@partial(jax.jit, static_argnums=(0, 6))
-def _reflectance(
-    layout: Layout, channel: AbstractBRDF, linear, natural, wi, wo, ambient: bool
-):
-    """``f_r (light, place)`` of one channel; traced once, differentiated often.
+def _under_light(brdf: AbstractBRDF, wi, wo):
+    """``f_r (place)`` of a model of one channel, directions ``(3, place)``."""
+    return jax.vmap(brdf.evaluate, in_axes=(1, 1))(wi, wo)[..., 0]
 
-    With ambient light, the diffuse reflectance follows as that of one more light.
-    """
+
+def _under_ambient(brdf: AbstractBRDF):
+    """Diffuse reflectance ``(1,)`` of a model of one channel."""
+    return brdf.diffuse_reflectance
+
+
+@partial(jax.jit, static_argnums=(0, 1))
+def _reflected(layout: Layout, under, channel: AbstractBRDF, linear, natural, *towards):
+    """What one channel reflects; traced once, differentiated often."""
     found = dict(zip(layout.nonlinear, natural, strict=True))
     found |= dict(zip(layout.linear, linear, strict=True))
     shapes = {name: value.shape for name, value in values(channel).items()}
     brdf = replace(channel, {n: v.reshape(shapes[n]) for n, v in found.items()})
-    over_places = jax.vmap(brdf.evaluate, in_axes=(1, 1))
-    f_r = jax.vmap(over_places, in_axes=(1, None))(wi, wo)[..., 0]
-    if not ambient:
-        return f_r
-    diffuse = jnp.broadcast_to(brdf.diffuse_reflectance[:, None], (1, f_r.shape[1]))
-    return jnp.concatenate([f_r, diffuse.astype(f_r.dtype)])
+    return under(brdf, *towards)
 
 
-def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
-    """Rows ``C, B_1, ..`` (and their derivatives) of one channel, per light.
+def _channel_rows(problem: Problem, channel, x, derivatives: bool, under, *towards):
+    """Rows ``C, B_1, ..`` (and their derivatives) of one channel.
 
     ``x`` are the solver coordinates of the nonlinear parameters that the channel sees,
-    in the order of the layout. Returns ``(rows, light, place)``: first the constant and
-    the basis functions, then the derivatives of all of them along each nonlinear
-    parameter in turn.
+    in the order of the layout. Returns rows ``(place)``: first the constant and the
+    basis functions, then the derivatives of all of them along each nonlinear parameter
+    in turn.
     """
     layout = problem.layout
     places = tuple(layout.channel_places(layout.nonlinear)[0].tolist())
-    dtype = block.wi.dtype
-    ambient = block.weight.shape[0] > block.wi.shape[1]
+    dtype = problem.blocks.wo.dtype
     zero = jnp.zeros(len(layout.linear), dtype)
     each = jnp.eye(len(layout.linear), dtype=dtype)
 
@@ -105,39 +100,51 @@ def _channel_rows(problem: Problem, channel, x, block, derivatives: bool):
         # cast after the map: bounds hold to the last digit of the data's precision
         natural = to_natural(layout, x, places).astype(dtype) if places else zero[:0]
 
-        def reflectance(linear):
-            return _reflectance(
-                layout, channel, linear, natural, block.wi, block.wo, ambient
-            )
+        def reflected(linear):
+            return _reflected(layout, under, channel, linear, natural, *towards)
 
-        # what the rows have in common is worked out once, not again in each of them
-        value, push = jax.lax.optimization_barrier(jax.linearize(reflectance, zero))
-        return jnp.stack([value, *(push(e) for e in each)])
+        value, push = jax.linearize(reflected, zero)
+        return [row.astype(dtype) for row in (value, *(push(e) for e in each))]
 
     if not derivatives or not places:
         return basis(x)
-    along = jnp.eye(len(places), dtype=x.dtype)
-    slopes = [jax.jvp(basis, (x,), (e,))[1] for e in along]
-    return jnp.concatenate([basis(x), *slopes])
+    # what the rows have in common is worked out once for all of them
+    found, along = jax.linearize(basis, x)
+    slopes = [row for e in jnp.eye(len(places), dtype=x.dtype) for row in along(e)]
+    return [*found, *slopes]
 
 
 def rows(problem: Problem, x, block, derivatives: bool):
     """Rows of all channels, summed over lights: ``(channel or 1, rows, place)``."""
     layout = problem.layout
     seen = x[local(problem)]
-    if layout.separate:
-        per_light = jax.vmap(
-            lambda channel, x: _channel_rows(problem, channel, x, block, derivatives)
-        )(problem.channels, seen)
-    else:
-        first = jax.tree.map(lambda leaf: leaf[0], problem.channels)
-        per_light = _channel_rows(problem, first, seen[0], block, derivatives)[None]
-    weight = jnp.moveaxis(block.weight, 1, 0)  # channel or 1, light, place
-    lights = weight.shape[1]
-    if lights > FEW_LIGHTS:
-        return jnp.sum(per_light * weight[:, None], axis=2)
-    parts = [per_light[:, :, i] * weight[:, None, i] for i in range(lights)]
-    return functools.reduce(operator.add, parts)
+
+    def weighted(weight, under, *towards):
+        def one(channel, x):
+            return _channel_rows(problem, channel, x, derivatives, under, *towards)
+
+        if layout.separate:
+            found = jax.vmap(one)(problem.channels, seen)
+        else:
+            first = jax.tree.map(lambda leaf: leaf[0], problem.channels)
+            found = [row[None] for row in one(first, seen[0])]
+        return [row * weight for row in found]
+
+    def of_light(i):
+        wi, weight = block.lights.wi[i], block.lights.weight[i]
+        return weighted(weight, _under_light, wi, block.wo)
+
+    def add_light(i, total):
+        return jax.tree.map(jnp.add, total, of_light(i))
+
+    total = of_light(block.first)
+    if block.several:
+        end = block.first + block.lit
+        total = jax.lax.fori_loop(block.first + 1, end, add_light, total)
+    if block.ambient is not None:
+        ambient = weighted(block.ambient, _under_ambient)
+        total = jax.tree.map(jnp.add, total, ambient)
+    return jnp.stack(total, axis=1)
 
 
 def mixed(linear: Array, basis: Array) -> Array:
@@ -173,12 +180,7 @@ def over_blocks(problem: Problem, add, start):
     blocks = problem.blocks
 
     def body(i, total):
-        def pick(array):
-            if array.ndim == 0:  # the count
-                return array
-            return jax.lax.dynamic_index_in_dim(array, i, keepdims=False)
-
-        part = add(jax.tree.map(pick, blocks))
+        part = add(blocks.at(i))
         return jax.tree.map(lambda t, p: t + p.astype(t.dtype), total, part)
 
     return jax.lax.fori_loop(0, blocks.count, body, start)

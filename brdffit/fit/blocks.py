@@ -14,23 +14,36 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from brdffit.compiled import compiled
+from brdffit.fit.order import HARMLESS, in_order, lit_first
 from brdffit.fit.residual import Residual
 from brdffit.samples import Samples
 from brdffit.types import AnyArray
 
 SIZE = 2048  # samples in a block: its rows fit into the second-level cache
-AHEAD = 2  # blocks whose samples stand for all
-HARMLESS = (0.6, 0.0, 0.8)  # direction of places that hold no sample
+AHEAD = 1  # blocks whose samples stand for all
+
+
+class Lights(eqx.Module):
+    """Lights of all blocks, one block's after the other's; dark ones are left out.
+
+    Attributes:
+        wi: Directions.
+        weight: What a unit of ``f_r`` adds to the value; one channel when all agree.
+    """
+
+    wi: Float[AnyArray, "light 3 place"]
+    weight: Float[AnyArray, "light channel_or_1 place"]
 
 
 class Blocks(eqx.Module):
-    """Samples in blocks ``(block, component, ..., place)``, or one block of them.
+    """Samples in blocks ``(block, component, place)``, or one block of them.
 
     Attributes:
-        wi, wo: Directions.
-        weight: What a unit of ``f_r`` adds to the value; one channel when all agree.
-            One more than there are lights where there is ambient light: what a unit of
-            diffuse reflectance adds.
+        lights: From where the samples of all blocks are lit.
+        first: Place of the first light of the block among these.
+        lit: Number of lights that reach any sample of the block; at least 1.
+        ambient: What a unit of diffuse reflectance adds to the value, or None.
+        wo: Directions to the viewer.
         value: Observations.
         target: The observations after the transform of the residual.
         scale: Weight of a difference from ``target`` (a root: it enters squared); 0
@@ -39,12 +52,15 @@ class Blocks(eqx.Module):
         share: What of ``scale`` is the share of the solid angle; None without any.
         cos_i, cos_o: Cosines a residual may use.
         count: Number of blocks that hold samples.
+        several: True when some samples are lit by more than one light.
         known_sigma: True when the weights are standard deviations of the observations.
     """
 
-    wi: Float[AnyArray, "*block 3 light place"]
+    lights: Lights
+    first: Int[AnyArray, "*block"]
+    lit: Int[AnyArray, "*block"]
+    ambient: Float[AnyArray, "*block channel_or_1 place"] | None
     wo: Float[AnyArray, "*block 3 place"]
-    weight: Float[AnyArray, "*block light_or_ambient channel_or_1 place"]
     value: Float[AnyArray, "*block channel place"]
     target: Float[AnyArray, "*block channel place"]
     scale: Float[AnyArray, "*block scales place"]
@@ -53,7 +69,18 @@ class Blocks(eqx.Module):
     cos_o: Float[AnyArray, "*block place"]
     count: Int[AnyArray, ""]
     share: Float[AnyArray, "*block 1 place"] | None
+    several: bool = eqx.field(static=True)
     known_sigma: bool = eqx.field(static=True)
+
+    def at(self, i: Array) -> "Blocks":
+        """One block; the lights of all stay together."""
+
+        def pick(leaf):
+            if isinstance(leaf, Lights) or leaf.ndim == 0:  # the count
+                return leaf
+            return jax.lax.dynamic_index_in_dim(leaf, i, keepdims=False)
+
+        return jax.tree.map(pick, self, is_leaf=lambda leaf: isinstance(leaf, Lights))
 
     def used_share(self) -> Array:
         """``share``, 1 without any, and 0 where masked."""
@@ -89,21 +116,20 @@ def blocks(
     Weights are the inverse of the known standard deviations, carried through the
     transform of the residual, times the root of the share of the solid angle.
     """
-    rows = _representative_first(samples, np.flatnonzero(use.any(axis=1)))
+    rows = np.flatnonzero(use.any(axis=1))
+    lit = (samples.wi[..., 2] > 0) & (np.asarray(samples.weight) > 0).any(axis=-1)
+    lit = lit[rows] & (samples.wo[rows, 2] > 0)[:, None]
+    order = in_order(np.asarray(samples.value)[rows], lit.sum(axis=1), AHEAD * SIZE)
+    rows, lit = rows[order], lit[order]
     samples, use = samples.take(rows), use[rows]
     base, share = use.astype(float), None
     if samples.solid_angle is not None:
         share = np.sqrt(samples.solid_angle / samples.solid_angle.mean())[:, None]
         base = base * share
 
-    up = (samples.wi[..., 2] > 0) & (samples.wo[:, 2] > 0)[:, None]
-    wi = np.where(up[..., None], samples.wi, HARMLESS)
-    weight = np.where(up[..., None], samples.weight, 0)
-    if samples.ambient is not None:
-        ambient = np.asarray(samples.ambient)[:, None]
-        weight = np.concatenate([weight, ambient], axis=1)
+    wi, weight = lit_first(lit, samples.wi, np.asarray(samples.weight))
 
-    count, lights = len(samples), wi.shape[1]
+    count = len(samples)
     number = -(-count // SIZE)
     room = _bucket(number)
 
@@ -113,23 +139,30 @@ def blocks(
         padded[:count] = array
         return np.moveaxis(padded.reshape(room, SIZE, *array.shape[1:]), 1, -1)
 
-    def lay_directions(w):
-        """The same with the components next to the blocks."""
-        return np.moveaxis(lay(w, HARMLESS), -2, 1)
-
     value = lay(np.where(use, np.asarray(samples.value), 1), 1, np.float64)
     cosines = lay(samples.cosine, HARMLESS[2]), lay(samples.wo[:, 2], HARMLESS[2])
     target, slope = map(np.asarray, _compared(value, *cosines, residual=residual))
     scale = lay(base, 0, np.float64)
+    reached = np.maximum(lay(lit.sum(axis=1), 0, np.int32).max(axis=-1), 1)
+    of_block = np.repeat(np.arange(room), reached)
+    first = np.cumsum(reached) - reached
+    lights = of_block, np.arange(len(of_block)) - first[of_block]
     if samples.sigma is None:
         lean = scale * slope
     else:
         lean = scale / lay(np.where(use, samples.sigma, 1), 1, np.float64)
         scale = np.where(slope > 0, lean / np.where(slope > 0, slope, 1), 0)
     return Blocks(
-        wi=lay_directions(wi),
-        wo=lay_directions(samples.wo),
-        weight=lay(_once(weight, axis=-1), 1 / lights),
+        lights=Lights(
+            wi=_with_room(lay(wi, HARMLESS)[lights], 1.0),
+            weight=_with_room(lay(_once(weight, axis=-1), 1)[lights], 0.0),
+        ),
+        first=first.astype(np.int32),
+        lit=reached,
+        ambient=None
+        if samples.ambient is None
+        else lay(_once(np.asarray(samples.ambient), axis=-1), 1),
+        wo=lay(samples.wo, HARMLESS),
         value=value.astype(dtype),
         target=target.astype(dtype),
         scale=_once(scale, axis=1).astype(dtype),
@@ -138,6 +171,7 @@ def blocks(
         cos_o=cosines[1],
         count=np.asarray(number, np.int32),
         share=None if share is None else lay(share, 1),
+        several=wi.shape[1] > 1,
         known_sigma=samples.sigma is not None,
     )
 
@@ -153,28 +187,17 @@ def _compared(value, cos_i, cos_o, residual: Residual):
     )
 
 
-def _representative_first(samples: Samples, rows: np.ndarray) -> np.ndarray:
-    """The rows in an order in which the first stand for all.
-
-    Of each block's worth three quarters are every so-manieth, one of the brightest.
-    """
-    ahead = AHEAD * SIZE
-    if len(rows) <= ahead:
-        return rows
-    bright = np.argsort(np.nansum(np.asarray(samples.value)[rows], axis=1))
-    bright = bright[-max(len(rows) // 20, 1) :]
-    bright = bright[:: max(1, len(bright) // (ahead // 4))][: ahead // 4]
-    rest = np.setdiff1d(np.arange(len(rows)), bright, assume_unique=True)
-    even = rest[np.linspace(0, len(rest) - 1, ahead - len(bright)).astype(int)]
-    first = np.concatenate([bright, even])
-    others = np.setdiff1d(np.arange(len(rows)), first, assume_unique=True)
-    return rows[np.concatenate([first, others])]
-
-
 def _once(array: np.ndarray, axis: int) -> np.ndarray:
     """One channel instead of all, which stand along an axis, when they agree."""
     first = array.take([0], axis)
     return first if np.all(array == first) else array
+
+
+def _with_room(array: np.ndarray, fill: float) -> np.ndarray:
+    """The array with more entries along its first axis: one of few numbers."""
+    more = _bucket(max(len(array), 1)) - len(array)
+    widths = [(0, more)] + [(0, 0)] * (array.ndim - 1)
+    return np.pad(array, widths, constant_values=fill) if more else array
 
 
 def _bucket(number: int) -> int:

@@ -1,8 +1,8 @@
 """One fit, from samples to a result."""
 
+import dataclasses
 import time
 from collections.abc import Mapping, Sequence
-from functools import partial
 from typing import TYPE_CHECKING, Any, Optional
 
 import jax
@@ -119,13 +119,16 @@ def fit(
         x0[:, list(held)] = hold_at(layout, held)
         problem = bounded_problem(layout, brdf, residual, held)
         exact = problem(blocks=blocks(samples, use, residual, np.dtype(np.float64)))
+        quick = exact
+        if precision != "float64":
+            quick = problem(blocks=blocks(samples, use, residual, np.dtype(precision)))
         if solver is not None:
             residuals = residual_vector(layout, brdf, samples, use, residual)
             middle = np.mean(typical_box(layout), axis=0)
             x0 = np.where(np.isnan(x0), middle, x0)
             found = search_plainly(residuals, exact, x0, solver, max_steps)
         else:
-            found = search(problem, exact, samples, use, x0, precision, max_steps)
+            found = search(quick, x0, RTOL[precision], max_steps)
         for _ in range(ROUNDS if loss or priors else 0):
             spread = _spread(found, layout, brdf, samples, use, residual, loss)
             asked = {
@@ -134,10 +137,9 @@ def fit(
                 "prior_mean": prior[0],
                 "prior_weight": prior[1] * spread**2,
             }
-            problem = partial(problem, **asked)
-            exact = problem(blocks=exact.blocks)
+            exact, quick = (dataclasses.replace(p, **asked) for p in (exact, quick))
             again = np.concatenate([found.x[None], x0])[:starts]
-            found = search(problem, exact, samples, use, again, precision, max_steps)
+            found = search(quick, again, RTOL[precision], max_steps)
             if known_sigma:
                 break
         facts = examine(exact, found, held, int(use.sum()), known_sigma)

@@ -106,8 +106,9 @@ def search_plainly(
             rounding=8 * jnp.finfo(cost.dtype).eps * cost,
             steps=found.stats["num_steps"],
             status=outcome_of(found.result),
+            origin=jnp.array(0),
         )
 
     met = compiled(lambda u: jax.lax.map(from_start, u))(np.log(share / (1 - share)))
     met = jax.tree.map(np.asarray, met)
-    return outcome(met, met)
+    return outcome(met, len(starts))

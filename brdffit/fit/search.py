@@ -1,24 +1,23 @@
 """From many starts to the best minimum: sort out on few samples, finish on all."""
 
 import dataclasses
-from functools import partial
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 
 from brdffit.compiled import compiled
 from brdffit.fit import structure
 from brdffit.fit.basis import Problem
-from brdffit.fit.blocks import AHEAD, blocks
+from brdffit.fit.blocks import AHEAD
 from brdffit.fit.start import typical_box
 from brdffit.fit.status import CONVERGED
-from brdffit.samples import Samples
 from brdffit.types import AnyArray
 
-RTOL = {"float64": 1e-10, "float32": 1e-9}
+RTOL = {"float64": 1e-9, "float32": 1e-8}
+ROUGH = 1e-6  # the same on few samples
 FINALISTS = 3  # minima that are finished on all samples
 SAME_BASIN = 1e-3  # relative difference in cost below which two minima are one
 
@@ -32,6 +31,7 @@ class Minima(eqx.Module):
         rounding: Error of the cost.
         steps: Solver steps taken.
         status: Outcome of each solve, a place in `STATUS`.
+        origin: Which start each came from.
     """
 
     x: Float[AnyArray, "*start n"]
@@ -39,6 +39,7 @@ class Minima(eqx.Module):
     rounding: Float[AnyArray, "*start"]
     steps: Int[AnyArray, "*start"]
     status: Int[AnyArray, "*start"]
+    origin: Int[AnyArray, "*start"]
 
 
 class Search(eqx.Module):
@@ -47,8 +48,8 @@ class Search(eqx.Module):
     Attributes:
         x: The best point found.
         cost: What is minimised, there.
-        steps: Steps of the solve that found it.
-        status: Its outcome, a place in `STATUS`.
+        steps: Steps of the solves that led there.
+        status: Outcome of the last of them, a place in `STATUS`.
         basins: Number of distinct minima met.
         agreement: Share of starts that ended in the best one.
     """
@@ -62,12 +63,9 @@ class Search(eqx.Module):
 
 
 def search(
-    problem: partial[Problem],
-    exact: Problem,
-    samples: Samples,
-    use: Bool[np.ndarray, "sample channel"],
+    problem: Problem,
     starts: Float[np.ndarray, "start n"],
-    precision: str,
+    rtol: float,
     max_steps: int,
 ) -> Search:
     """Solve from all starts and return the best minimum.
@@ -76,47 +74,35 @@ def search(
     the basins apart, and only the best few are finished on all.
 
     Args:
-        problem: Everything but the samples; called with ``blocks``.
-        exact: The same with all samples, in double precision.
-        samples: What to explain.
-        use: Which values count.
+        problem: The fit.
         starts: Starting points in solver coordinates.
-        precision: Precision in which models are evaluated.
+        rtol: Relative decrease of the cost at which to stop.
         max_steps: Steps after which a start gives up.
     """
-    rtol = RTOL[precision]
-    whole = exact
-    if np.dtype(precision) != exact.blocks.wi.dtype:
-        residual = problem.keywords["residual"]
-        whole = problem(blocks=blocks(samples, use, residual, np.dtype(precision)))
-    room = np.zeros((max(len(starts), FINALISTS), starts.shape[1]))
-    room[: len(starts)] = starts
-    count = len(starts)
-    met = None
-    if whole.blocks.count > AHEAD and count > 1:
-        few = dataclasses.replace(whole.blocks, count=np.asarray(AHEAD, np.int32))
-        sample = dataclasses.replace(whole, blocks=few)
-        met = solve(sample, room, count, rtol=rtol, max_steps=max_steps)
-        finalists = _distinct(met)[:FINALISTS]
-        room[: len(finalists)] = met.x[finalists]
-        count = max(len(finalists), 1)  # without any, the first start is tried again
-    final = solve(whole, room, count, rtol=rtol, max_steps=max_steps)
-    return outcome(final if met is None else met, final)
+    solved, number = _compiled_solve(problem, starts, rtol=rtol, max_steps=max_steps)
+    solved = jax.tree.map(lambda leaf: np.asarray(leaf)[: int(number)], solved)
+    return outcome(solved, len(starts))
 
 
-def outcome(met: Minima, final: Minima) -> Search:
+def outcome(solved: Minima, count: int) -> Search:
     """The best minimum, and how many there are.
 
     Args:
-        met: Where the starts ended.
-        final: Where the best of them were finished.
+        solved: Where the ``count`` starts ended, and, when that was on few samples,
+            where the best of them were finished.
+        count: Number of starts.
     """
-    near = met.cost <= np.nanmin(met.cost) + _same(met)
+    met = jax.tree.map(lambda leaf: leaf[:count], solved)
+    final = jax.tree.map(lambda leaf: leaf[count:], solved)
+    staged = len(final.cost) > 0
+    final = final if staged else met
     best = _best(final)
+    near = met.cost <= np.nanmin(met.cost) + _same(met)
+    before = met.steps[final.origin[best]] if staged else 0
     return Search(
-        x=np.asarray(final.x[best]),
+        x=final.x[best],
         cost=float(final.cost[best]),
-        steps=int(final.steps[best]),
+        steps=int(final.steps[best] + before),
         status=int(final.status[best]),
         basins=len(_distinct(met)),
         agreement=float(np.mean(near)),
@@ -131,9 +117,9 @@ def _best(met: Minima) -> int:
     return int(np.lexsort((cost, unfinished, worse))[0])
 
 
-def _same(met: Minima) -> np.ndarray:
+def _same(met: Minima) -> AnyArray:
     """Difference in cost up to which two minima count as one."""
-    return SAME_BASIN * np.abs(met.cost) + 4 * met.rounding
+    return SAME_BASIN * abs(met.cost) + 4 * met.rounding
 
 
 def _distinct(met: Minima) -> np.ndarray:
@@ -146,12 +132,66 @@ def _distinct(met: Minima) -> np.ndarray:
 
 
 def _solve(
-    problem: Problem, starts: AnyArray, count: AnyArray, rtol: float, max_steps: int
-) -> Minima:
-    """Solve from the first ``count`` starts, one after the other in one program.
+    problem: Problem, starts: AnyArray, rtol: float, max_steps: int
+) -> tuple[Minima, AnyArray]:
+    """Where all starts end, and then their best few; and how many that makes.
 
-    Each start takes the steps that it needs and no more; batched, all would take those
-    of the slowest, and the small matrix products of a batch are slow on a CPU.
+    One after the other in one program: each start takes the steps that it needs and no
+    more; batched, all would take those of the slowest, and the small matrix products
+    of a batch are slow on a CPU.
+    """
+    count = len(starts)
+    number = problem.blocks.count
+    staged = number > AHEAD
+    room = count + FINALISTS
+
+    def go_on(state):
+        i, solved, left = state
+        first_of_last = i == count  # without any finite cost, a start is tried again
+        more = (i < room) & (first_of_last | jnp.any(left))
+        return (i < count) | (staged & more)
+
+    def one_more(state):
+        i, solved, left = state
+        rough = staged & (i < count)
+        best = jnp.argmin(jnp.where(left, solved.cost, jnp.inf))
+        origin = jnp.where(i < count, i, best)
+        # of starts that end in one minimum the best is finished
+        same = solved.cost <= solved.cost[best] + _same(solved)[best]
+        left = jnp.where(i < count, left, left & ~same)
+        start = starts[jnp.minimum(origin, count - 1)]
+        given = (i < count) | ~jnp.isfinite(solved.cost[best])
+        new = _from_start(
+            _of_blocks(problem, jnp.where(rough, AHEAD, number)),
+            jnp.where(given, start, solved.x[best]),
+            jnp.where(rough, ROUGH, rtol),
+            max_steps,
+        )
+        new = dataclasses.replace(new, origin=origin)
+        solved = jax.tree.map(lambda all, one: all.at[i].set(one), solved, new)
+        finite = (i < count) & jnp.isfinite(new.cost)
+        return i + 1, solved, left.at[i].set(finite)
+
+    shapes = jax.eval_shape(
+        lambda problem, x: _from_start(problem, x, rtol, max_steps), problem, starts[0]
+    )
+    empty = jax.tree.map(lambda s: jnp.zeros((room, *s.shape), s.dtype), shapes)
+    state = jnp.array(0), empty, jnp.zeros(room, bool)
+    done, solved, _ = jax.lax.while_loop(go_on, one_more, state)
+    return solved, done
+
+
+_compiled_solve = compiled(_solve, static=("rtol", "max_steps"))
+
+
+def _of_blocks(problem: Problem, count) -> Problem:
+    """The fit to the first blocks alone."""
+    blocks = dataclasses.replace(problem.blocks, count=count)
+    return dataclasses.replace(problem, blocks=blocks)
+
+
+def _from_start(problem: Problem, x, rtol, max_steps: int) -> Minima:
+    """Where one start ends.
 
     Where linear parameters can be eliminated the solver sees the others alone. Where
     not it sees all, and the linear ones whose start is NaN begin where they fit best
@@ -165,67 +205,38 @@ def _solve(
 
     nonlinear, layout = problem.nonlinear_places, problem.layout
     linear_places = layout.channel_places(layout.linear)
-    low, high = (box[linear_places] for box in typical_box(layout))
     projected = problem.projected
-    seen = nonlinear if projected else np.arange(starts.shape[1])
-    options = {"lower": problem.lower[seen], "upper": problem.upper[seen]}
-    solver = BoundedLevenbergMarquardt(rtol)
+    seen = nonlinear if projected else np.arange(x.shape[0])
 
     def equations(x, problem):
         if projected:
             return structure.project(problem, x)
         return structure.stream(problem, x), jnp.zeros((layout.channels, 0))
 
-    def from_start(x):
-        if not projected:
-            _, linear = structure.project(problem, x[nonlinear], derivatives=False)
-            given = x[linear_places]
-            begin = jnp.where(jnp.isnan(given), jnp.clip(linear, low, high), given)
-            x = x.at[linear_places].set(begin)
-        solution = optx.least_squares(
-            equations,
-            solver,
-            x[seen],
-            args=problem,
-            options=options,
-            has_aux=True,
-            max_steps=max_steps,
-            throw=False,
-        )
-        x = x.at[seen].set(solution.value)
-        if projected:
-            x = x.at[linear_places].set(solution.aux)
-        return Minima(
-            x=x,
-            cost=solution.state.equations.cost,
-            rounding=solution.state.equations.rounding,
-            steps=solution.stats["num_steps"],
-            status=outcome_of(solution.result),
-        )
-
-    def one_more(i, met):
-        return jax.tree.map(lambda m, new: m.at[i].set(new), met, from_start(starts[i]))
-
-    shapes = jax.eval_shape(from_start, starts[0])
-    empty = jax.tree.map(lambda s: jnp.zeros((len(starts), *s.shape), s.dtype), shapes)
-    return jax.lax.fori_loop(0, count, one_more, empty)
-
-
-_compiled_solve = compiled(_solve, static=("rtol", "max_steps"))
-
-
-def solve(
-    problem: Problem, starts: np.ndarray, count: int, rtol: float, max_steps: int
-) -> Minima:
-    """Where the first ``count`` starts end; the others are room that compiles once.
-
-    Args:
-        problem: The fit.
-        starts: Starting points in solver coordinates.
-        count: How many of them to solve from.
-        rtol: Relative decrease of the cost at which to stop.
-        max_steps: Steps after which a start gives up.
-    """
-    asked = np.asarray(count, np.int32)
-    met = _compiled_solve(problem, starts, asked, rtol=rtol, max_steps=max_steps)
-    return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], met)
+    if not projected:
+        low, high = (box[linear_places] for box in typical_box(layout))
+        _, linear = structure.project(problem, x[nonlinear], derivatives=False)
+        given = x[linear_places]
+        begin = jnp.where(jnp.isnan(given), jnp.clip(linear, low, high), given)
+        x = x.at[linear_places].set(begin)
+    solution = optx.least_squares(
+        equations,
+        BoundedLevenbergMarquardt(rtol),
+        x[seen],
+        args=problem,
+        options={"lower": problem.lower[seen], "upper": problem.upper[seen]},
+        has_aux=True,
+        max_steps=max_steps,
+        throw=False,
+    )
+    x = x.at[seen].set(solution.value)
+    if projected:
+        x = x.at[linear_places].set(solution.aux)
+    return Minima(
+        x=x,
+        cost=solution.state.equations.cost,
+        rounding=solution.state.equations.rounding,
+        steps=solution.stats["num_steps"],
+        status=outcome_of(solution.result),
+        origin=jnp.array(0),
+    )

@@ -65,7 +65,7 @@ def project(problem: Problem, x: Array, derivatives: bool = True):
     channels = layout.channels
     shared = (
         not layout.separate
-        and problem.blocks.weight.shape[2] == problem.blocks.lean.shape[1] == 1
+        and problem.blocks.lights.weight.shape[1] == problem.blocks.lean.shape[1] == 1
     )
 
     def add(block):
@@ -83,7 +83,7 @@ def project(problem: Problem, x: Array, derivatives: bool = True):
         gram = jnp.stack([gram[0][np.ix_(i, i)] for i in own])
 
     places = layout.channel_places(layout.linear)
-    eps = 8 * jnp.finfo(problem.blocks.wi.dtype).eps
+    eps = 8 * jnp.finfo(problem.blocks.wo.dtype).eps
     energy = jnp.sum(gram[:, -1, -1])
     priors = problem.prior_weight[places], problem.prior_mean[places]
     gram += jax.vmap(partial(_expected, size=gram.shape[-1]))(*priors)
@@ -189,7 +189,7 @@ def stream(problem: Problem, x: Array) -> NormalEquations:
     if problem.loss is None:
         cost = gram[:, -1, -1] / 2
     places = layout.channel_places(layout.linear + layout.nonlinear)
-    eps = 8 * jnp.finfo(problem.blocks.wi.dtype).eps
+    eps = 8 * jnp.finfo(problem.blocks.wo.dtype).eps
     floor = eps**2 * magnitude
     whole = _assemble(
         (cost, gram[:, :-1, -1], gram[:, :-1, :-1]),
