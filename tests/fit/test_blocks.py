@@ -37,10 +37,10 @@ def test_what_cannot_be_used_is_left_out():
 def test_padding_has_no_weight_and_harmless_directions():
     data = samples()
     laid = blocks(data, usable(data, log), log, np.dtype(float))
-    assert laid.wi.shape == (1, 3, 1, SIZE)
+    assert laid.lights.wi.shape == (1, 3, SIZE)
     assert laid.count == 1
     assert np.all(laid.scale[..., 5:] == 0)
-    np.testing.assert_allclose(np.linalg.norm(laid.wi[0, :, 0], axis=0), 1)
+    np.testing.assert_allclose(np.linalg.norm(laid.lights.wi[0], axis=0), 1)
     np.testing.assert_array_equal(laid.value[0, :, :5], np.asarray(data.value).T)
 
 
@@ -61,7 +61,7 @@ def test_weights_follow_the_solid_angle():
 @pytest.mark.parametrize(("count", "room"), [(1, 1), (2048, 1), (2049, 4), (9000, 16)])
 def test_few_sizes_serve_all_counts(count, room):
     data = samples(count)
-    assert blocks(data, usable(data, log), log, np.dtype(float)).wi.shape[0] == room
+    assert blocks(data, usable(data, log), log, np.dtype(float)).wo.shape[0] == room
 
 
 def test_the_first_blocks_stand_for_all():
