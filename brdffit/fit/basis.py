@@ -131,8 +131,8 @@ def rows(problem: Problem, x, block, derivatives: bool):
         return [row * weight for row in found]
 
     def of_light(i):
-        wi, weight = block.lights.wi[i], block.lights.weight[i]
-        return weighted(weight, _under_light, wi, block.wo)
+        light = block.lights.at(i)
+        return weighted(light.weight, _under_light, light.wi, block.wo)
 
     def add_light(i, total):
         return jax.tree.map(jnp.add, total, of_light(i))

@@ -24,15 +24,19 @@ AHEAD = 1  # blocks whose samples stand for all
 
 
 class Lights(eqx.Module):
-    """Lights of all blocks, one block's after the other's; dark ones are left out.
+    """Lights of all blocks, one block's after the other's, or one; none is dark.
 
     Attributes:
         wi: Directions.
         weight: What a unit of ``f_r`` adds to the value; one channel when all agree.
     """
 
-    wi: Float[AnyArray, "light 3 place"]
-    weight: Float[AnyArray, "light channel_or_1 place"]
+    wi: Float[AnyArray, "*light 3 place"]
+    weight: Float[AnyArray, "*light channel_or_1 place"]
+
+    def at(self, i: AnyArray) -> "Lights":
+        """One of them."""
+        return jax.tree.map(partial(_one, i=i), self)
 
 
 class Blocks(eqx.Module):
@@ -78,13 +82,17 @@ class Blocks(eqx.Module):
         def pick(leaf):
             if isinstance(leaf, Lights) or leaf.ndim == 0:  # the count
                 return leaf
-            return jax.lax.dynamic_index_in_dim(leaf, i, keepdims=False)
+            return _one(leaf, i)
 
         return jax.tree.map(pick, self, is_leaf=lambda leaf: isinstance(leaf, Lights))
 
     def used_share(self) -> Array:
         """``share``, 1 without any, and 0 where masked."""
         return jnp.where(self.scale > 0, 1 if self.share is None else self.share, 0)
+
+
+def _one(array: AnyArray, i: AnyArray) -> Array:
+    return jax.lax.dynamic_index_in_dim(array, i, keepdims=False)
 
 
 def usable(samples: Samples, residual: Residual) -> np.ndarray:
@@ -117,7 +125,8 @@ def blocks(
     transform of the residual, times the root of the share of the solid angle.
     """
     rows = np.flatnonzero(use.any(axis=1))
-    lit = (samples.wi[..., 2] > 0) & (np.asarray(samples.weight) > 0).any(axis=-1)
+    above = np.asarray(samples.wi)[..., 2] > 0
+    lit = above & (np.asarray(samples.weight) > 0).any(axis=-1)
     lit = lit[rows] & (samples.wo[rows, 2] > 0)[:, None]
     order = in_order(np.asarray(samples.value)[rows], lit.sum(axis=1), AHEAD * SIZE)
     rows, lit = rows[order], lit[order]
@@ -127,7 +136,7 @@ def blocks(
         share = np.sqrt(samples.solid_angle / samples.solid_angle.mean())[:, None]
         base = base * share
 
-    wi, weight = lit_first(lit, samples.wi, np.asarray(samples.weight))
+    wi, weight = lit_first(lit, np.asarray(samples.wi), np.asarray(samples.weight))
 
     count = len(samples)
     number = -(-count // SIZE)

@@ -77,7 +77,7 @@ class BoundedLevenbergMarquardt(optx.AbstractLeastSquaresSolver):
         norm: Not used: decreases are scalars.
     """
 
-    rtol: float | Float[Array, ""]
+    rtol: Any  # a number, of Python or traced
     atol: float = 0.0
     damping: float = FIRST_DAMPING
     norm: Callable = optx.max_norm
