@@ -1,15 +1,18 @@
 import numpy as np
 import pytest
 
-from brdffit.effects import plan
+from brdffit.effects import plan, shadows
+from brdffit.effects.lights import incident
 from brdffit.models import MODELS
 from brdffit.render import trace
 from brdffit.scene import (
     Directional,
     Environment,
+    Geometry,
     Mesh,
     OpacityMap,
     Orthographic,
+    Perspective,
     Plane,
     Point,
     Scene,
@@ -27,9 +30,9 @@ LIGHTS = {
 }
 
 
-def lit_floor(light, shadows, ball=BALL):
+def lit_floor(light, how, ball=BALL):
     """Whether points of the floor are lit, and where they are."""
-    scene = Scene(ABOVE, (FLOOR, ball), (light,), shadows=shadows)
+    scene = Scene(ABOVE, (FLOOR, ball), (light,), shadows=how)
     samples = trace(scene)
     x = 3 * ((2 * samples.pixels.column + 1) / 96 - 1)
     z = 3 * ((2 * samples.pixels.row + 1) / 96 - 1)
@@ -50,7 +53,7 @@ def in_shadow(light, place):
 
 @pytest.mark.parametrize("kind", LIGHTS)
 def test_rays_find_the_exact_shadow(kind):
-    lit, place = lit_floor(LIGHTS[kind], shadows=Scene.shadows)
+    lit, place = lit_floor(LIGHTS[kind], Scene.shadows)
     dark = in_shadow(LIGHTS[kind], place)
     np.testing.assert_array_equal(lit, ~dark)
     assert 0.02 < dark.mean() < 0.4
@@ -77,6 +80,33 @@ def test_the_bias_keeps_a_lit_surface_free_of_its_own_shadow(kind):
         samples = trace(scene, made)
         facing = samples.wi[:, 0, 2] > 0.05
         assert (samples.weight[facing, 0, 0] > 0).all() == clean
+
+
+def test_the_constant_bias_keeps_a_hollow_sphere_lit_from_its_centre():
+    """All depths are equal there and nothing slants: rounding alone decides."""
+    camera = Perspective(24, position=[0, 0, 0.5], field_of_view=90)
+    for bias, clean in ((0.05, True), (0.0, False)):
+        how = ShadowMap(32, 1.0, bias)
+        lamp = Point([0.0, 0.0, 0.0])
+        scene = Scene(camera, (Sphere(),), (lamp,), shadows=how)
+        samples = trace(scene, plan(scene, with_=["shadows"]))
+        assert len(samples.wo) == 24**2
+        assert (samples.weight[:, 0, 0] > 0).all() == clean
+
+
+@pytest.mark.parametrize("light", [Directional([0, 1, 0]), Point([0, 4, 0])])
+def test_the_bias_is_no_larger_than_it_must_be(light):
+    """A card close above a floor leaves all below it dark, and nothing around it."""
+    card = Mesh(([[-1, 0.05, -1], [1, 0.05, -1], [0, 0.05, 1]], [[0, 1, 2]]))
+    scene = Scene(ABOVE, (FLOOR, card), (light,), shadows=ShadowMap(64))
+    geometry = Geometry(scene.shapes)
+    below = [[0, 0.02, 0], [-0.6, 0.02, -0.8], [0.6, 0.02, -0.8]]
+    beside = [[-1.8, 0.02, -0.8], [0, 0.02, 1.5]]
+    down = np.tile([0.0, -1.0, 0.0], (5, 1))
+    hits = geometry.first_hits(np.array([*below, *beside]), down)
+    towards = incident(scene.lights, hits.position, 1, None)
+    lit = shadows.visibility(geometry, geometry.first_hits, hits, towards, scene)
+    np.testing.assert_array_equal(lit[:, 0], [0, 0, 0, 1, 1])
 
 
 def test_light_passes_through_holes():

@@ -92,6 +92,30 @@ def test_a_triangle_seen_edge_on_has_no_width():
     assert distance[1, 0] == pytest.approx(1.2, rel=1e-6)
 
 
+def test_rounding_gives_no_width_to_triangles_seen_edge_on():
+    """Rays in the planes of random triangles, aimed at the middle of each."""
+    random = np.random.default_rng(4)
+    corners = random.standard_normal((300, 3, 3))
+    middle = corners.mean(axis=1)
+    along = corners[:, 0] + 3 * (corners[:, 1] - corners[:, 0]) - middle
+    direction = -along / np.linalg.norm(along, axis=1, keepdims=True)
+    distance, _, _ = meet_triangles(middle + along, direction, corners)
+    assert (np.diagonal(distance) == np.inf).all()
+
+
+@pytest.mark.parametrize(
+    ("direction", "expected"),
+    [([0.6, -0.8, 0], 2.5), ([0.6, 0.8, 0], np.inf), ([1, 0, 0], np.inf)],
+    ids=["towards", "away", "along"],
+)
+def test_a_plane_is_met_where_the_ray_goes_towards_it(direction, expected):
+    arrays = [np.array(a, float) for a in ([0, 2, 0], direction, [5, 0, 7], [0, 1, 0])]
+    with jax.enable_x64(True):
+        arrays = [jnp.asarray(a) for a in arrays]
+        distance = intersection.plane(*arrays, jnp.zeros(()))
+    assert float(distance) == pytest.approx(expected, rel=1e-15)
+
+
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 def test_a_far_triangle_is_met_where_it_is_whatever_its_size(scale):
     far = 1e6 * scale

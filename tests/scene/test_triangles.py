@@ -75,6 +75,13 @@ def test_normals_of_a_smooth_mesh_are_between_those_of_its_corners():
     np.testing.assert_array_equal(smooth.geometric, flat.normal)
 
 
+@pytest.mark.parametrize(("subdivisions", "large"), [(3, False), (4, True)])
+def test_embree_takes_meshes_beyond_a_few_thousand_triangles(subdivisions, large):
+    ball = trimesh.creation.icosphere(subdivisions)
+    assert len(ball.faces) in (1280, 5120)
+    assert bool(Geometry([Mesh((ball.vertices, ball.faces))]).large) == large
+
+
 def test_a_large_mesh_is_met_by_embree_where_a_small_one_is(monkeypatch):
     ball = trimesh.creation.icosphere(3)
     mesh = Mesh((ball.vertices, ball.faces))
