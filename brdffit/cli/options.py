@@ -44,7 +44,7 @@ Settings = Annotated[
     tuple[str, ...],
     Parameter(
         "--set",
-        consume_multiple=True,
+        consume_multiple=1,
         help="Parameters, as in alpha=0.2 albedo=0.8,0.5,0.2.",
     ),
 ]
@@ -81,12 +81,12 @@ Tolerance = Annotated[
 ]
 With = Annotated[
     tuple[str, ...],
-    Parameter("--with", consume_multiple=True, help="Effects to simulate in any case."),
+    Parameter("--with", consume_multiple=1, help="Effects to simulate in any case."),
 ]
 Without = Annotated[
     tuple[str, ...],
     Parameter(
-        "--without", consume_multiple=True, help="Effects to leave out in any case."
+        "--without", consume_multiple=1, help="Effects to leave out in any case."
     ),
 ]
 Within = Annotated[

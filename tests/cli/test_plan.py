@@ -61,6 +61,7 @@ def test_a_render_says_what_the_user_has_overridden(run, scene, tmp_path):
     ("words", "sentence"),
     [
         (("--with", "shadow"), "Effect `shadow` must be one of"),
+        (("--with",), "--with requires at least 1 element"),
         (("--with", "bump"), "Effect `bump` needs a height map in the scene."),
         (("--set", "alpha=0.1"), "Option --set needs the model"),
         (("--tolerance", "-1"), "The tolerance must be above 0"),
