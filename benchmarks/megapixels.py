@@ -24,7 +24,7 @@ import numpy as np
 import brdffit
 from benchmarks.record import RESULTS, facts
 from brdffit.models import MODELS, ConductorGGX
-from brdffit.plots.style import COLOURS, MUTED, new_figure
+from brdffit.plots.style import COLOURS, MUTED, entitle, new_figure
 from brdffit.render import render, trace
 from brdffit.render.shading import compiled_shade
 from experiments.record import Record, styled
@@ -119,10 +119,21 @@ def timed(name: str, resolution: int, turns: int) -> list[dict]:
     return rows
 
 
+def finding(rows: list[dict]) -> str:
+    """How fast whole renders are beside Mitsuba's, as a sentence."""
+    speed = {(r["material"], r["contestant"]): r["megapixels_per_s"] for r in rows}
+    other = rows[-1]["contestant"]
+    ratios = [speed[name, WHOLE] / speed[name, other] for name in BRDFS]
+    return (
+        f"Whole renders of a sphere by brdffit are {min(ratios):.2g} to "
+        f"{max(ratios):.2g} times as fast as by {other}"
+    )
+
+
 @styled
 def figure(rows: list[dict], resolution: int):
     """Bars of megapixels per second, a group for each material."""
-    drawn = new_figure(6.4, 3.2)
+    drawn = new_figure(7.6, 3.8)
     axes = drawn.subplots()
     names = list(dict.fromkeys(row["contestant"] for row in rows))
     colours = (COLOURS[0], COLOURS[1], MUTED)
@@ -131,10 +142,11 @@ def figure(rows: list[dict], resolution: int):
         at = np.arange(len(speed)) + 0.26 * (place - 1)
         bars = axes.bar(at, speed, width=0.24, color=colour, label=who)
         axes.bar_label(bars, fmt="%.0f", size=7)
-    axes.set_xticks(range(len(BRDFS)), [name.replace("_", " ") for name in BRDFS])
+    told = [f"{name}\n(Mitsuba: {THEIRS[name]['type']})" for name in BRDFS]
+    axes.set_xticks(range(len(told)), told)
     axes.set_ylabel("megapixels per second")
-    axes.set_title(f"A sphere of {resolution} x {resolution} pixels, one light")
-    axes.legend(loc="upper left", bbox_to_anchor=(1, 1), frameon=False)
+    drawn.legend(loc="outside lower center", ncols=3)
+    entitle(drawn, f"{finding(rows)}, at {resolution} x {resolution} pixels")
     return drawn
 
 
@@ -144,7 +156,7 @@ def main(folder=RESULTS / "megapixels", turns=TURNS, resolution=RESOLUTION):
     rows = [row for name in BRDFS for row in timed(name, resolution, turns)]
     record.table(rows)
     record.figure(figure(rows, resolution))
-    record.close(**facts(turns))
+    record.close(finding=f"{finding(rows)}.", **facts(turns))
     return rows
 
 
