@@ -192,3 +192,32 @@ def test_rendering_of_what_cannot_be(refuse, tmp_path, monkeypatch):
         "render", "broken.json", "--out", "x.exr"
     )
     assert "must end in .exr" in refuse("render", "ggx", "--out", "x.png")
+
+
+SCENE = """
+camera = {kind = "orthographic", resolution = 8}
+shapes = [{kind = "sphere"}]
+lights = [{kind = "directional", direction = [0, 0, 1]}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "key"),
+    [
+        ('kind = "sphere"', 'kind = "sphere", radius = 0', "radius"),
+        ('kind = "sphere"', 'kind = "plane", normal = [0, 0, 0]', "normal"),
+        ('kind = "sphere"', 'kind = "mesh", file = "flat.obj"', "file"),
+        ('kind = "sphere"', 'kind = "sphere", height = {map = "no.exr"}', "map"),
+        ('"directional", direction', '"environment", map = "flat.obj", x', "x"),
+        ("[0, 0, 1]", "[0, 0, 2]", "direction"),
+        ("[0, 0, 1]", "[0, 0, nan]", "direction"),
+        ("[0, 0, 1]", "[0, 0, 1], irradiance = -1", "irradiance"),
+        ("= 8", "= 8, target = [0, 0, 1e300]", "target"),
+        ("= 8", "= 1e9", "resolution"),
+    ],
+)
+def test_scenes_that_cannot_be(refuse, tmp_path, old, new, key):
+    (tmp_path / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+    assert SCENE.count(old) == 1
+    (tmp_path / "scene.toml").write_text(SCENE.replace(old, new))
+    assert f"`{key}`" in refuse("plan", tmp_path / "scene.toml")
