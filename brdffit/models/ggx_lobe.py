@@ -19,7 +19,9 @@ class GGXLobe(AbstractBRDF):
 
     Range:
         $f_r \ge 0$; single scattering only: with $F_0 = 1$ the directional albedo at
-        normal incidence falls to $1 - \log 2 = 0.307$ at $\alpha = 1$.
+        normal incidence falls to $1 - \log 2 = 0.307$ at $\alpha = 1$. With $F_0 = 0$
+        it still reflects at grazing angles, where $F$ rises to 1: a sum with this lobe
+        does not contain the model without it, and may fit worse.
 
     Source:
         B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
