@@ -22,7 +22,7 @@ from experiments.tradeoff import Variant, measured as compared
 
 RESOLUTION = 14
 SKY = (128, 256)
-NUMBERS = tuple(2**n for n in range(4, 13))
+NUMBERS = tuple(2**n for n in range(4, 16))
 TOLERANCES = (1e-1, 1e-2, 1e-3)
 ALPHAS = (0.05, 0.1, 0.2, 0.5)
 RUNS = 7
@@ -102,11 +102,12 @@ def measured(resolution, numbers):
 
 def finding(picked):
     """How often the plan keeps its word, and at what number of directions."""
-    met = [row["error"] <= row["tolerance"] for row in picked if row["said_to_be_met"]]
+    met = sum(row["error"] <= row["tolerance"] for row in picked)
+    said = sum(row["said_to_be_met"] for row in picked)
     numbers = [row["directions"] for row in picked]
     return (
-        f"The plan meets {sum(met)} of the {len(met)} tolerances that it says it "
-        f"meets, with {min(numbers):,} to {max(numbers):,} directions"
+        f"The plan meets {met} of {len(picked)} tolerances, and says so of {said}, "
+        f"with {min(numbers):,} to {max(numbers):,} directions"
     )
 
 
@@ -119,7 +120,7 @@ def chart(rows, picked, words):
     for n, name in enumerate(names):
         own = [row for row in rows if row["model"] == name]
         look = {"color": COLOURS[n], "linestyle": DASHES[n]}
-        error = [row["error"] for row in own]
+        error = [row["error"] or np.nan for row in own]  # none on a log scale
         left.plot([row["directions"] for row in own], error, label=name, **look)
         right.plot([row["milliseconds"] for row in own], error, **look)
         chosen = [row for row in picked if row["model"] == name]
@@ -129,6 +130,15 @@ def chart(rows, picked, words):
             "o",
             color=COLOURS[n],
         )
+    exact = [row["directions"] for row in picked if not row["error"]]
+    left.plot(
+        exact,
+        [0.03] * len(exact),
+        "kv",
+        markerfacecolor="none",
+        transform=left.get_xaxis_transform(),
+        label="every pixel: no error" if exact else None,
+    )
     for tolerance in TOLERANCES:
         label = "tolerance" if tolerance == TOLERANCES[0] else None
         left.axhline(tolerance, color="#6b6b6b", linewidth=0.7, label=label)

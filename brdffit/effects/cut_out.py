@@ -40,6 +40,13 @@ def solid(geometry: Geometry, hits: Hits) -> np.ndarray:
     return found
 
 
+def seen(view: View) -> Hits:
+    """What the pixels of a view see, past holes."""
+    if all(shape.opacity is None for shape in view.scene.shapes):
+        return view.hits
+    return first_hits(view.geometry, *view.rays)
+
+
 def first_hits(geometry: Geometry, origin, direction) -> Hits:
     """First hits of rays that go on through holes."""
     begin, ray = np.array(origin), np.arange(len(origin))

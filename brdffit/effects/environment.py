@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from brdffit.catalogue import from_name
+from brdffit.effects import cut_out
 from brdffit.effects.bounces import smooth_shapes
 from brdffit.effects.decision import (
     Decision,
@@ -17,14 +18,15 @@ from brdffit.effects.decision import (
     relative,
 )
 from brdffit.effects.lights import incident, irradiance
-from brdffit.effects.quadrature import Rule, texels
+from brdffit.effects.quadrature import CUTS, Rule
 from brdffit.effects.worst import extremes
 from brdffit.geometry import any_tangent, shading_frame
 from brdffit.models.base import AbstractBRDF
+from brdffit.scene import Hits
 
 NAME = "environment"
-LEAST, MOST = 16, 4096  # directions
-TEXELS = 2**17  # most pixels of the probe that all count in the reference
+LEAST, MOST = 16, 2**17  # directions
+BLOCK = 1024  # directions at once: rules of any length are one program
 MARGIN = 1.5  # below the tolerance, because few points are looked at
 POINTS = 48  # at which quadrature is tried
 ASSUMED = "ggx"  # what a surface is made of while its BRDF is not known
@@ -39,23 +41,26 @@ def decide(view: View) -> Decision:
         why = "there is a light probe, which is seen but lights nothing by itself"
         seen = view.judged(NAME, 1.0, 0.0, why)
         return dataclasses.replace(seen, number=LEAST)
-    number, error = count(view)
+    hits = cut_out.seen(view)
+    number, error = count(view, hits)
     brdf = _assumed(view)
     w = jnp.array([0.0, 0.0, 1.0])
     cost = number * (operations(brdf, w, w) + 3 * view.channels)
-    met = f"they leave an error of {error:.2g}"
+    met = f"by {number} directions; they leave an error of {error:.2g}"
+    if error == 0:
+        met = f"by all of its {number} pixels, which leaves no error"
     if MARGIN * error > view.tolerance:
-        met += f", too near the tolerance or above it: more than {MOST} are needed"
-    why = f"there is a light probe, by {number} directions; {met}"
+        met += ", too near the tolerance or above it: more pixels of it would be needed"
+    why = f"there is a light probe, {met}"
     if view.brdf is None:
         why += f" for {ASSUMED} with its usual values, as the BRDF is not known yet"
-    judged = view.judged(NAME, _share(view), cost, why)
+    judged = view.judged(NAME, _share(view, hits), cost, why)
     return dataclasses.replace(judged, number=number)
 
 
-def _share(view: View) -> float:
+def _share(view: View, hits: Hits) -> float:
     """How much of the irradiance comes from the probe; all where it is itself seen."""
-    scene, hits = view.scene, view.hits
+    scene = view.scene
     if len(hits.ray) < len(view.rays[0]) or smooth_shapes(scene.shapes):
         return 1.0
     both, others = (
@@ -68,45 +73,63 @@ def _share(view: View) -> float:
     return relative(whole - others.sum(axis=1), whole)
 
 
-def count(view: View) -> tuple[int, float]:
+def count(view: View, hits: Hits) -> tuple[int, float]:
     """Directions that keep the error within the tolerance, and the error they leave.
 
     The image is tried at a few points, for the worst BRDF that counts, against every
-    pixel of the probe; shadows are not looked at. The number is a power of two, the
-    least from which on all meet the tolerance with a margin.
+    pixel of the probe; shadows are not looked at. The number is the least power of two
+    that meets the tolerance with a margin, as does the one above it. Where there is
+    none, each pixel becomes a direction, which is exact. Probes of more than ``MOST``
+    pixels have theirs put together in squares, whose error falls with their area: a
+    third of what doubling their sides changes.
     """
-    probe, hits = view.scene.probe, view.hits
-    assert probe is not None  # there is no decision to take
     if not len(hits.ray):
         return LEAST, 0.0
     some = hits.take(np.random.default_rng(0).integers(len(hits.ray), size=POINTS))
     points = [np.asarray(a, np.float32) for a in (some.normal, -some.direction)]
-    light, direction = texels(probe, TEXELS)
-    every = Rule(direction.reshape(-1, 3), light.reshape(-1, light.shape[-1]))
-    numbers = 2 ** np.arange(int(np.log2(LEAST)), int(np.log2(MOST)) + 1)
-    errors = np.zeros(len(numbers))
-    for brdf in extremes(_assumed(view), view.within):
-        whole = _wide(every, len(every.towards), view.channels)
-        truth = np.asarray(_radiance(brdf, *points, *whole))
-        for n, number in enumerate(numbers):
-            rule = _wide(view.regions.rule(int(number)), MOST, view.channels)
-            found = np.asarray(_radiance(brdf, *points, *rule))
-            errors[n] = max(errors[n], relative(found - truth, truth))
-    worst_from_here = np.maximum.accumulate(errors[::-1])[::-1]
-    good = np.flatnonzero(MARGIN * worst_from_here <= view.tolerance)
-    chosen = good[0] if len(good) else len(numbers) - 1
-    return int(numbers[chosen]), float(worst_from_here[chosen])
+    regions, channels = view.regions, view.channels
+    brdfs = extremes(_assumed(view), view.within)
+
+    def images(rule: Rule) -> list[np.ndarray]:
+        return [_image(brdf, points, rule, channels) for brdf in brdfs]
+
+    truths = images(regions.blocks(MOST))
+
+    def error(rule: Rule) -> float:
+        pairs = zip(images(rule), truths, strict=True)
+        return max(relative(found - truth, truth) for found, truth in pairs)
+
+    every = min(MOST, regions.pixels)
+    number, met = LEAST, None
+    while number < every and number <= CUTS:
+        left = error(regions.rule(number))
+        if MARGIN * left > view.tolerance:
+            met = None
+        elif met:
+            return met[0], max(met[1], left)
+        else:
+            met = number, left
+        number *= 2
+    if met:
+        return met
+    exact = every == regions.pixels
+    return every, 0.0 if exact else error(regions.blocks(MOST // 4)) / 3
 
 
-def _wide(rule: Rule, room: int, channels: int) -> list[np.ndarray]:
-    """A rule with directions of no weight added, in single precision."""
-    short = room - len(rule.towards)
-    towards = np.pad(rule.towards, ((0, short), (0, 0)), mode="edge")
+def _image(brdf, points, rule: Rule, channels: int) -> np.ndarray:
+    """Radiance ``(point, channel)`` of points under a rule, block by block.
+
+    The last block is filled up with directions of no weight.
+    """
+    short = -len(rule.towards) % BLOCK
     light = np.broadcast_to(rule.irradiance, (len(rule.towards), channels))
-    return [
-        np.asarray(a, np.float32)
-        for a in (towards, np.pad(light, ((0, short), (0, 0))))
+    towards = np.pad(rule.towards, ((0, short), (0, 0)), mode="edge")
+    blocks = [
+        np.asarray(array, np.float32).reshape(-1, BLOCK, array.shape[1])
+        for array in (towards, np.pad(light, ((0, short), (0, 0))))
     ]
+    each = [_radiance(brdf, *points, *block) for block in zip(*blocks, strict=True)]
+    return np.sum(each, axis=0, dtype=float)
 
 
 def _assumed(view: View) -> AbstractBRDF:

@@ -8,6 +8,8 @@ from jaxtyping import Float
 
 from brdffit.scene import Environment
 
+CUTS = 2**15  # most directions found by cutting, which take about a second
+
 
 class Rule(NamedTuple):
     """Directions, and what comes from each: the irradiance of a surface facing it."""
@@ -36,68 +38,79 @@ class Regions:
         """Sum the light of the probe."""
         light, direction = texels(probe)
         grey = light.mean(axis=-1, keepdims=True)
-        moments = np.concatenate([grey, grey * direction, light], axis=-1)
-        rows, columns, numbers = moments.shape
+        self.moments = np.concatenate([grey, grey * direction, light], axis=-1)
+        rows, columns, numbers = self.moments.shape
+        self.pixels = rows * columns
         self.sums = np.zeros((rows + 1, columns + 1, numbers))
-        self.sums[1:, 1:] = moments.cumsum(axis=0).cumsum(axis=1)
+        self.sums[1:, 1:] = self.moments.cumsum(axis=0).cumsum(axis=1)
         self.boxes, self.cut_at = [], []
         self.heap: list[tuple[float, int]] = []
-        self._add((0, rows, 0, columns))
+        self._add((0, rows, 0, columns), np.inf)
 
     def rule(self, count: int) -> Rule:
-        """As many directions, or one for each pixel where there are fewer of them."""
+        """As many directions, or one for each pixel where there are fewer of them.
+
+        Beyond ``CUTS``, all are the middles of blocks, see there.
+        """
+        if count >= self.pixels or count > CUTS:
+            return self.blocks(count)
         while len(self.heap) < count and self._cut():
             pass
         boxes, cut_at = np.array(self.boxes), np.array(self.cut_at)
         # the cut that makes n into n + 1 adds two boxes: 2n - 1 and 2n
         born = (np.arange(len(boxes)) + 1) // 2 + 1
         alive = boxes[(born <= count) & (cut_at >= count)]
-        total = self._sum(*alive.T)
-        length = np.linalg.norm(total[:, 1:4], axis=1)
-        lit = length > 0
-        towards = total[lit, 1:4] / length[lit, None]
-        return Rule(towards, total[lit, 4:])
+        return _middles(self._sum(*alive.T))
 
-    def _add(self, box: tuple[int, ...]) -> None:
+    def blocks(self, most: int) -> Rule:
+        """One direction for each square of pixels, as small as gives no more than that.
+
+        With as many directions as pixels, the squares are the pixels, and light of the
+        probe is as it is. Pixels without light are left out.
+        """
+        rows, columns, numbers = self.moments.shape
+        side = 1
+        while -(-rows // side) * -(-columns // side) > most:
+            side += 1
+        total = np.add.reduceat(self.moments, np.arange(0, rows, side), axis=0)
+        total = np.add.reduceat(total, np.arange(0, columns, side), axis=1)
+        return _middles(total.reshape(-1, numbers))
+
+    def _add(self, box: tuple[int, ...], spread: float) -> None:
         self.boxes.append(box)
         self.cut_at.append(np.iinfo(np.int64).max)
-        spread = float(_spread(self._sum(*box)))
         heapq.heappush(self.heap, (-spread, len(self.boxes) - 1))
 
     def _cut(self) -> bool:
         """Cut the rectangle with the largest spread; False when nothing is left."""
-        spread, which = self.heap[0]
-        if spread == 0:
+        largest, which = self.heap[0]
+        if largest == 0:
             return False
-        top, bottom, left, right = box = self.boxes[which]
-        whole = self._sum(*box)
-        best = (np.inf, box, box)
-        if bottom - top > 1:
-            at = np.arange(top + 1, bottom)
-            n, least = self._least(self._sum(top, at, left, right), whole)
-            edge = int(at[n])
-            halves = (top, edge, left, right), (edge, bottom, left, right)
-            best = min(best, (least, *halves), key=lambda cut: cut[0])
-        if right - left > 1:
-            at = np.arange(left + 1, right)
-            n, least = self._least(self._sum(top, bottom, left, at), whole)
-            edge = int(at[n])
-            halves = (top, bottom, left, edge), (top, bottom, edge, right)
-            best = min(best, (least, *halves), key=lambda cut: cut[0])
-        if not np.isfinite(best[0]):  # a single pixel
+        top, bottom, left, right = self.boxes[which]
+        rows, columns = np.arange(top + 1, bottom), np.arange(left + 1, right)
+        if not len(rows) and not len(columns):  # a single pixel
             heapq.heapreplace(self.heap, (0.0, which))
             return True
+        one = np.concatenate(
+            [
+                self._sum(top, rows, left, right),
+                self._sum(top, bottom, left, columns),
+            ]
+        )
+        other = self._sum(top, bottom, left, right) - one
+        spread = _spread(np.stack([one, other]))
+        best = int(np.argmin(spread.sum(axis=0)))
+        if best < len(rows):
+            edge = int(rows[best])
+            halves = (top, edge, left, right), (edge, bottom, left, right)
+        else:
+            edge = int(columns[best - len(rows)])
+            halves = (top, bottom, left, edge), (top, bottom, edge, right)
         heapq.heappop(self.heap)
         self.cut_at[which] = len(self.heap) + 1
-        for half in best[1:]:
-            self._add(half)
+        for half, rest in zip(halves, spread[:, best], strict=True):
+            self._add(half, float(rest))
         return True
-
-    def _least(self, one: np.ndarray, whole: np.ndarray) -> tuple[int, float]:
-        """Which cut leaves least spread, and how much."""
-        spread = _spread(one) + _spread(whole - one)
-        best = int(np.argmin(spread))
-        return best, float(spread[best])
 
     def _sum(self, top, bottom, left, right) -> np.ndarray:
         sums = self.sums
@@ -109,6 +122,13 @@ class Regions:
         )
 
 
+def _middles(total: np.ndarray) -> Rule:
+    """All light of each rectangle from its middle, where there is any."""
+    length = np.linalg.norm(total[:, 1:4], axis=1)
+    lit = length > 0
+    return Rule(total[lit, 1:4] / length[lit, None], total[lit, 4:])
+
+
 def _spread(sums: np.ndarray) -> np.ndarray:
     """Brightness times the variance of directions, from sums over a rectangle."""
     grey, moment = sums[..., 0], sums[..., 1:4]
@@ -118,19 +138,14 @@ def _spread(sums: np.ndarray) -> np.ndarray:
 
 
 def texels(
-    probe: Environment, most: int = 2**62
+    probe: Environment,
 ) -> tuple[Float[np.ndarray, "row column channel"], Float[np.ndarray, "row column 3"]]:
     """Light of each pixel of a probe, radiance times solid angle, and its direction.
 
     Light of a pixel is the mean between the centres of pixels around it, as an image of
-    the probe shows it. Beyond ``most`` pixels, neighbours are put together.
+    the probe shows it.
     """
     pixels = probe.scale * probe.map.pixels
-    while pixels.shape[0] * pixels.shape[1] > most and not any(
-        n % 2 for n in pixels.shape[:2]
-    ):
-        pixels = (pixels[::2] + pixels[1::2]) / 2
-        pixels = (pixels[:, ::2] + pixels[:, 1::2]) / 2
     wide = (np.roll(pixels, 1, 1) + 6 * pixels + np.roll(pixels, -1, 1)) / 8
     up = np.concatenate([wide[:1], wide[:-1]])
     down = np.concatenate([wide[1:], wide[-1:]])

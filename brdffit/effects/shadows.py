@@ -44,10 +44,9 @@ def decide(view: View) -> Decision:
         return not_called_for(NAME, "a lone convex shape casts no shadow on itself")
     if len(smooth_shapes(scene.shapes)) == len(scene.shapes):
         return not_called_for(NAME, "no shadow shows on mirrors and glass")
-    meet, hits = view.geometry.first_hits, view.hits
+    meet, hits = view.geometry.first_hits, cut_out.seen(view)
     if any(shape.opacity is not None for shape in scene.shapes):
         meet = partial(cut_out.first_hits, view.geometry)
-        hits = meet(*view.rays)
     if scene.probe is not None:
         some = np.linspace(0, len(hits.ray) - 1, min(len(hits.ray), PROBE_POINTS))
         hits = hits.take(np.unique(some.astype(int)))

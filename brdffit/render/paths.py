@@ -19,7 +19,7 @@ from brdffit.samples import Samples
 from brdffit.scene import Geometry, Glass, Mirror, Scene
 from brdffit.types import Index, Values
 
-LEAST = 64  # rays that a part is filled up to
+LEAST = 64  # rays that a part is filled up to, where so many are taken at once
 GIVEN = -1  # stands for the material that a scene is rendered with
 
 Materials = Mapping[int, AbstractBRDF | Mirror | Glass]
@@ -135,7 +135,7 @@ def _portions(
         return
     for start in range(0, len(rows), portion):
         some = rows[start : start + portion]
-        room = LEAST
+        room = min(LEAST, portion)
         while room < len(some):
             room *= 2
         yield np.pad(some, (0, room - len(some)), mode="edge"), len(some)

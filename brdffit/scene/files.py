@@ -36,7 +36,8 @@
     steps = 4
 
 The keys of a table are the attributes of the class it stands for, in `brdffit.scene`. A
-shape without a material is made of what the scene is rendered with. A table
+shape without a material is made of what the scene is rendered with; the material of one
+whose channels differ is ``{per_channel = [...]}``, with a model for each. A table
 ``provenance`` may stand beside these, in the sidecar of an image; it says where the
 pixels came from and is no part of the scene.
 """
@@ -52,6 +53,7 @@ from brdffit.models import MODELS
 from brdffit.models.base import AbstractBRDF
 from brdffit.names import look_up
 from brdffit.parameters import check
+from brdffit.per_channel import PerChannel
 from brdffit.scene import values
 from brdffit.scene.camera import Orthographic, Perspective
 from brdffit.scene.lights import LIGHTS
@@ -149,12 +151,32 @@ def _file(key: str, value: Any, folder: Path) -> Path:
 
 def _material(table: Any) -> Any:
     """What a shape is made of, from its table."""
+    _require_table("material", table)
+    if "per_channel" in table:
+        return _per_channel(**table)
     made = _model("material", table, SMOOTH | MODELS)
-    if table["model"] in SMOOTH:
-        rest = {key: value for key, value in table.items() if key != "model"}
-        _check_keys(rest, made)
-        return made(**rest)
-    _check_brdf(table, made)
+    if table["model"] not in SMOOTH:
+        return _brdf("material", table)
+    rest = {key: value for key, value in table.items() if key != "model"}
+    _check_keys(rest, made)
+    return made(**rest)
+
+
+def _per_channel(per_channel: Any, **others: Any) -> PerChannel:
+    """A material that has a model for each channel."""
+    for key in others:
+        raise ValueError(f"`material` must have no `{key}` beside `per_channel`.")
+    if not isinstance(per_channel, list):
+        raise ValueError(
+            "`per_channel` must be a list of tables, for each channel one."
+        )
+    parts = enumerate(per_channel)
+    return PerChannel(tuple(_brdf(f"per_channel[{n}]", part) for n, part in parts))
+
+
+def _brdf(place: str, table: Any) -> AbstractBRDF:
+    """A BRDF from the table of its values."""
+    _check_brdf(table, _model(place, table, MODELS))
     brdf = from_description(table)
     check(brdf)
     return brdf

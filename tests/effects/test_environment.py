@@ -1,12 +1,20 @@
 import numpy as np
 import pytest
 
-from brdffit.effects import plan
+from brdffit.effects import environment, plan
 from brdffit.effects.quadrature import Regions, texels
 from brdffit.models import MODELS
-from brdffit.render import render, trace
+from brdffit.render import picture, render, trace
 from brdffit.render.shading import compiled_shade
-from brdffit.scene import Environment, Orthographic, Scene, Sphere
+from brdffit.scene import (
+    Directional,
+    Environment,
+    OpacityMap,
+    Orthographic,
+    Plane,
+    Scene,
+    Sphere,
+)
 
 ROWS, COLUMNS = 64, 128
 GREY = MODELS["lambert"](albedo=[0.5, 0.5, 0.5])
@@ -52,6 +60,28 @@ def test_a_probe_of_a_few_pixels_is_used_up():
     assert rule.irradiance.sum() == pytest.approx(4 * np.pi, rel=1e-12)
 
 
+def test_with_as_many_directions_as_pixels_the_rule_is_the_probe(regions):
+    light, direction = texels(Environment(sky()))
+    lit = light.any(axis=-1)
+    rule = regions.rule(ROWS * COLUMNS)
+    assert 0 < len(rule.towards) < ROWS * COLUMNS
+    np.testing.assert_array_equal(rule.irradiance, light[lit])
+    np.testing.assert_allclose(rule.towards, direction[lit], atol=1e-15)
+
+
+def test_more_directions_than_are_cut_are_squares_of_pixels(monkeypatch):
+    monkeypatch.setattr("brdffit.effects.quadrature.CUTS", 64)
+    pixels = np.random.default_rng(0).uniform(1, 2, (15, 30, 1))
+    probe = Environment(pixels)
+    rule = Regions(probe).rule(449)  # one less than there are pixels
+    assert len(rule.towards) == 8 * 15
+    light, direction = (a[:2, :2].reshape(4, -1) for a in texels(probe))
+    assert rule.irradiance[0, 0] == pytest.approx(light.sum(), rel=1e-12)
+    middle = (light * direction).sum(axis=0)
+    np.testing.assert_allclose(rule.towards[0], middle / np.linalg.norm(middle))
+    assert len(Regions(probe).rule(64).towards) == 64
+
+
 def test_a_single_bright_pixel_is_one_direction():
     pixels = np.zeros((32, 64, 1))
     pixels[10, 20] = 1000.0
@@ -70,13 +100,13 @@ def test_a_white_surface_under_an_even_sky_shows_its_albedo():
     np.testing.assert_allclose(image[~inside], 1, rtol=1e-6)
 
 
-@pytest.mark.parametrize("alpha", [0.15, 0.5])
+@pytest.mark.parametrize("alpha", [0.03, 0.15, 0.5])
 def test_the_count_of_the_plan_meets_its_tolerance(alpha):
     """Against every pixel of the probe, on pixels that the plan has not looked at."""
     brdf = MODELS["ggx"](diffuse=0.2, f0=[0.3, 0.2, 0.1], alpha=alpha)
     scene = Scene(Orthographic(9), (Sphere(),), (Environment(sky()),))
     counts = []
-    for tolerance in (0.1, 0.01):
+    for tolerance in (0.1, 0.01, 0.001):
         made = plan(scene, brdf, tolerance=tolerance)
         samples = trace(scene, made)
         light, direction = texels(scene.probe)
@@ -86,15 +116,60 @@ def test_the_count_of_the_plan_meets_its_tolerance(alpha):
         error = np.sqrt(np.mean((found - truth) ** 2) / np.mean(truth**2))
         assert error < tolerance
         counts.append(made.directions)
-    assert counts[0] < counts[1]
+    assert counts[0] < counts[2]
+    assert counts == sorted(counts)
 
 
-def test_a_sharper_lobe_takes_more_directions_and_too_sharp_a_one_is_told():
+def sharp_and_rough(tolerance):
+    """Plans for a lobe narrower than the pixels of the sky, and for a wide one."""
     scene = Scene(Orthographic(9), (Sphere(),), (Environment(sky()),))
-    smooth, rough = (
-        plan(scene, MODELS["ggx"](f0=[0.5] * 3, alpha=alpha), tolerance=3e-4)
-        for alpha in (0.01, 0.6)
-    )
-    assert smooth.directions > rough.directions
-    assert "or above it: more than 4096" in smooth.decisions["environment"].why
+    return [
+        plan(scene, MODELS["ggx"](f0=[0.5] * 3, alpha=alpha), tolerance=tolerance)
+        for alpha in (0.005, 0.6)
+    ]
+
+
+def test_a_lobe_that_is_too_sharp_for_fewer_takes_every_pixel():
+    sharp, rough = sharp_and_rough(3e-4)
+    assert sharp.directions > rough.directions
+    assert f"all of its {ROWS * COLUMNS} pixels" in sharp.decisions["environment"].why
+    assert f"by {rough.directions} directions" in rough.decisions["environment"].why
+
+
+def test_a_probe_of_too_many_pixels_for_the_tolerance_is_told(monkeypatch):
+    monkeypatch.setattr(environment, "MOST", ROWS * COLUMNS // 4)
+    plans = sharp_and_rough(1e-2)
+    sharp, rough = (made.decisions["environment"].why for made in plans)
+    assert "or above it: more pixels of it would be needed" in sharp
+    assert "needed" not in rough
+
+
+def test_a_model_that_is_not_known_is_told():
+    scene = Scene(Orthographic(9), (Sphere(),), (Environment(sky()),))
     assert "as the BRDF is not known yet" in plan(scene).decisions["environment"].why
+
+
+def test_a_probe_that_is_seen_through_holes_only_counts_in_full():
+    """Its light on the wall does not count beside that of the sun."""
+    sun, probe = Directional([0, 0, 1], 1e5), Environment(np.ones((4, 8, 1)))
+    holes = OpacityMap(np.tile([0.0, 1.0], (4, 8)))
+    for opacity, on in ((None, False), (holes, True)):
+        wall = Plane([0, 0, 0], [0, 0, 1], opacity=opacity)
+        made = plan(Scene(Orthographic(12), (wall,), (sun, probe)), GREY)
+        assert made.on("environment") == on
+
+
+def test_a_picture_takes_few_points_at_once_under_many_directions(monkeypatch):
+    """So its memory is bounded: by the points of a block, times the directions."""
+    scene = Scene(Orthographic(9), (Sphere(),), (Environment(sky()),))
+    made = plan(scene, GREY, tolerance=0.01)
+    whole, sizes = render(GREY, scene, made), []
+
+    def counted(brdf, samples):
+        sizes.append(samples.weight.shape[:2])
+        return compiled_shade(brdf, samples)
+
+    monkeypatch.setattr(picture, "compiled_shade", counted)
+    monkeypatch.setattr(picture, "PAIRS", 16 * made.directions)
+    np.testing.assert_allclose(render(GREY, scene, made), whole, rtol=1e-5)
+    assert set(sizes) <= {(16, made.directions), (8, made.directions)}

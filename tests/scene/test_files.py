@@ -6,9 +6,12 @@ import pytest
 import trimesh
 
 from brdffit import images
+from brdffit.models import OrenNayar
 from brdffit.scene import (
     Directional,
     Glass,
+    Gooch,
+    Mesh,
     Mirror,
     Orthographic,
     Scene,
@@ -209,14 +212,19 @@ def test_everything_that_a_scene_may_hold_is_read(rich):
     assert scene.camera.shape == (12, 16)
     assert scene.depth == 3
     ball, floor, mesh, mirror = scene.shapes
+    assert ball.height is not None
     assert ball.height.scale == 0.02
+    assert ball.opacity is not None
     assert ball.opacity.threshold == 0.3
     assert ball.material is None
+    assert isinstance(floor.material, OrenNayar)
     np.testing.assert_allclose(floor.material.sigma, 0.4)
+    assert isinstance(mesh, Mesh)
     assert mesh.smooth
     assert isinstance(mesh.material, Glass)
     assert isinstance(mirror.material, Mirror)
     assert isinstance(scene.shadows, ShadowMap)
+    assert isinstance(scene.style, Gooch)
     assert scene.style.steps == 3
     assert scene.channels == 3
 
@@ -281,6 +289,13 @@ def test_everything_that_a_scene_may_hold_is_written(rich):
         ('"map"', '"rays"', "in `shadows`, key `resolution` is none"),
         ("eta = 1.4", "ior = 1.4", "in `shapes[2]`, key `ior` must be one of eta"),
         ('{model = "glass", eta = 1.4}', '"glass"', "`material` must be a table"),
+        ('model = "glass"', "per_channel = []", "must have no `eta` beside `per_chan"),
+        ('model = "glass", eta = 1.4', "per_channel = 1", "`per_channel` must be a li"),
+        (
+            'model = "glass", eta = 1.4',
+            'per_channel = [{model = "glass"}]',
+            "`model` of `per_channel[0]`, `glass` must be one of",
+        ),
         ("position = [1, 2, 3]", "", "in `lights[0]`, key `position` is missing"),
         ("[0.1, 0.1, 0.1]", "[0.1, 0.1]", "same number of channels, but have 2, 3"),
         ("intensity = 20", "intensity = -1", "`intensity` must be a number or a list"),

@@ -1,6 +1,8 @@
 import equinox as eqx
 import pytest
 
+from brdffit.catalogue import from_description
+from brdffit.per_channel import PerChannel
 from brdffit.scene import (
     Directional,
     HeightMap,
@@ -33,5 +35,14 @@ def test_a_scene_from_arrays_says_what_it_needs_to_be_written(tmp_path):
 )
 def test_a_camera_with_everything_set_is_read_as_it_was_written(tmp_path, camera):
     scene = Scene(camera, (Sphere(),), (SUN,))
+    save_scene(scene, tmp_path / "a.toml")
+    assert eqx.tree_equal(load_scene(tmp_path / "a.toml"), scene)
+
+
+def test_a_material_with_a_model_for_each_channel_is_read_as_it_was_written(tmp_path):
+    ggx = {"model": "ggx", "diffuse": [0.2], "f0": [0.3]}
+    parts = [from_description(ggx | {"alpha": alpha}) for alpha in (0.1, 0.2)]
+    shapes = (Sphere(material=PerChannel(tuple(parts))),)
+    scene = Scene(Orthographic(4), shapes, (SUN,))
     save_scene(scene, tmp_path / "a.toml")
     assert eqx.tree_equal(load_scene(tmp_path / "a.toml"), scene)
