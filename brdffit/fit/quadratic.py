@@ -117,6 +117,9 @@ def minimise_in_boxes(
     if size == 1:
         d = -slope / scaled[0]
         return _on_bounds(d <= low, d >= high, d * unit, lower, upper)
+    if size == 2:
+        d = _in_rectangle(scaled, slope, low, high)
+        return _on_bounds(d <= low, d >= high, d * unit, lower, upper)
 
     def exchange(state):
         rounds, _, side, _ = state
@@ -142,6 +145,32 @@ def minimise_in_boxes(
     )
     below, above = (side < 0) | (d <= low), (side > 0) | (d >= high)
     return _on_bounds(below, above, d * unit, lower, upper)
+
+
+def _in_rectangle(hessian: Array, slope: Array, low: Array, high: Array) -> Array:
+    """The minimiser of two unknowns within their bounds.
+
+    That of the plane if it lies within; or else the best of the four sides has it.
+    """
+    (a, b), (_, c) = hessian
+    (u, v), (left, lowest), (right, highest) = slope, low, high
+    determinant = a * c - b * b
+    x, y = (b * v - c * u) / determinant, (b * u - a * v) / determinant
+    inside = (left <= x) & (x <= right) & (lowest <= y) & (y <= highest)
+    sides = [
+        (end, jnp.clip(-(v + b * end) / c, lowest, highest)) for end in (left, right)
+    ]
+    sides += [
+        (jnp.clip(-(u + b * end) / a, left, right), end) for end in (lowest, highest)
+    ]
+    least = jnp.where(inside, -jnp.inf, jnp.inf)
+    for p, q in sides:
+        cost = p * (a * p / 2 + b * q + u) + q * (c * q / 2 + v)
+        better = cost < least  # False at an infinite end
+        x, y, least = (
+            jnp.where(better, new, old) for new, old in ((p, x), (q, y), (cost, least))
+        )
+    return jnp.stack([x, y])
 
 
 def _on_bounds(below, above, d, lower, upper) -> tuple[Array, Array]:

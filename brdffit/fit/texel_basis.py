@@ -53,11 +53,6 @@ class TexelProblem(eqx.Module):
         names += self.moving
         return np.array([p for n in names for p in self.layout.places[n]], int)
 
-    @property
-    def unknowns(self) -> int:
-        """Number of parameters that are not fixed."""
-        return int(np.sum(np.asarray(self.lower) < np.asarray(self.upper)))
-
 
 class TexelBlock(eqx.Module):
     """Texels side by side, as they were observed; see `Texels`.

@@ -20,6 +20,12 @@ from brdffit.fit.texel_basis import Observed, TexelProblem, compared, rows
 
 FEW = 32  # so many observations are added one by one
 
+# Entries ``(channel, texel)``, or ``(1, texel)`` where all channels have the same: what
+# is done to one does not wait for others, as it would in a single array.
+Entry = Float[Array, "_ texel"]
+Vector = tuple[Entry, ...]
+Matrix = tuple[tuple[Entry, ...], ...]
+
 
 class Sums(eqx.Module):
     """Sums over the observations of each channel, at one point.
@@ -28,15 +34,15 @@ class Sums(eqx.Module):
         linear: Values of the linear parameters.
         free: Which of them are not on a bound.
         cost: Half the sum of squares.
-        gradient: Its derivative in the linear and the moving parameters.
-        gram: Its second (Gauss-Newton) derivative.
+        gradient: Its derivative in each of the linear and the moving parameters.
+        gram: Its second (Gauss-Newton) derivative, row by row up to the diagonal.
     """
 
     linear: Float[Array, "q channel texel"]
     free: Bool[Array, "q channel texel"]
     cost: Float[Array, "channel texel"]
-    gradient: Float[Array, "p channel texel"]
-    gram: Float[Array, "p p channel texel"]
+    gradient: Vector
+    gram: Matrix
 
 
 def sums(problem: TexelProblem, seen: Observed, x: Array) -> Sums:
@@ -65,8 +71,8 @@ def sums(problem: TexelProblem, seen: Observed, x: Array) -> Sums:
         linear=linear,
         free=free,
         cost=_sum(error, error) / 2,
-        gradient=_vector([_sum(column, error) for column in jacobian], like=error),
-        gram=_gram(jacobian, like=error),
+        gradient=tuple(_sum(column, error) for column in jacobian),
+        gram=_gram(jacobian),
     )
 
 
@@ -83,22 +89,29 @@ def best_linear(problem: TexelProblem, seen: Observed, x: Array) -> tuple[Array,
     return linear, jnp.sum(_sum(error, error), axis=0) / 2
 
 
-def eliminated(gram: Array, gradient: Array, free: Array) -> tuple[Array, Array]:
+def eliminated(
+    gram: Matrix, gradient: Vector, free: Bool[Array, "q channel texel"]
+) -> tuple[Vector, Matrix]:
     """Gradient and second derivative after the linear parameters were solved.
 
     Args:
-        gram: Second derivative ``(p, p, channel, texel)``, the linear ones first.
-        gradient: First derivative ``(p, channel, texel)``.
-        free: Which linear parameters ``(q, channel, texel)`` are not on a bound.
+        gram: Second derivative, the linear ones first.
+        gradient: First derivative.
+        free: Which linear parameters are not on a bound.
     """
-    least = 8 * jnp.finfo(gram.dtype).eps
-    diagonal = gram
+    left, matrix = list(gradient), [list(row) for row in gram]
     for k in range(len(free)):
-        solid = free[k] & (gram[k, k] > least * diagonal[k, k])
-        factor = jnp.where(solid, 1 / jnp.where(solid, gram[k, k], 1), 0)
-        gradient = gradient - gram[:, k] * (gradient[k] * factor)[None]
-        gram = gram - gram[:, None, k] * (gram[k] * factor[None])[None]
-    return gradient[len(free) :], gram[len(free) :, len(free) :]
+        pivot = matrix[k][k]
+        solid = free[k] & (pivot > 8 * jnp.finfo(pivot.dtype).eps * gram[k][k])
+        inverse = jnp.where(solid, 1 / jnp.where(solid, pivot, 1), 0)
+        for i in range(k + 1, len(left)):
+            share = matrix[i][k] * inverse
+            left[i] = left[i] - share * left[k]
+            for j in range(k + 1, i + 1):
+                matrix[i][j] = matrix[i][j] - share * matrix[j][k]
+    rest = range(len(free), len(left))
+    kept = tuple(tuple(matrix[i][len(free) : i + 1]) for i in rest)
+    return tuple(left[i] for i in rest), kept
 
 
 def _weighted(seen: Observed, basis):
@@ -113,12 +126,26 @@ def _projected(problem: TexelProblem, basis, data: Array) -> tuple[Array, Array]
     constant, *columns = basis
     places = problem.linear_places
     shape = (*places.shape, data.shape[-1])
-    slope = _vector([_sum(c, constant - data) for c in columns], like=data)
+    if not columns:
+        return jnp.zeros(shape, data.dtype), jnp.zeros(shape, bool)
     lower, upper = (
         jnp.broadcast_to(bound[places][..., None], shape)
         for bound in (problem.lower, problem.upper)
     )
-    return minimise_in_boxes(_gram(columns, like=data), slope, lower, upper)
+    error = constant - data
+    slope = side_by_side(
+        [jnp.broadcast_to(_sum(column, error), shape[1:]) for column in columns]
+    )
+    gram, every = _gram(columns), range(len(columns))
+    hessian = side_by_side(
+        [
+            side_by_side(
+                [jnp.broadcast_to(gram[max(i, j)][min(i, j)], shape[1:]) for j in every]
+            )
+            for i in every
+        ]
+    )
+    return minimise_in_boxes(hessian, slope, lower, upper)
 
 
 def _mixed(linear: Array, basis) -> Array:
@@ -142,23 +169,12 @@ def _sum(first: Array, second: Array) -> Array:
     return jax.lax.optimization_barrier(functools.reduce(operator.add, terms))
 
 
-def _vector(entries: list[Array], like: Array) -> Array:
-    """Entries as one array, each of the size that the values ``like`` have."""
-    shape = like.shape[0], like.shape[2]
-    if not entries:
-        return jnp.zeros((0, *shape), like.dtype)
-    return side_by_side([jnp.broadcast_to(entry, shape) for entry in entries])
-
-
-def _gram(columns: list[Array], like: Array) -> Array:
-    """Sums of products of all pairs of columns ``(p, p, channel, texel)``."""
-    if not columns:
-        return jnp.zeros((0, 0, like.shape[0], like.shape[2]), like.dtype)
-    places = range(len(columns))
-    pairs = [
-        [_sum(columns[min(i, j)], columns[max(i, j)]) for j in places] for i in places
-    ]
-    return side_by_side([_vector(row, like) for row in pairs])
+def _gram(columns: list[Array]) -> Matrix:
+    """Sums of products of all pairs of columns, row by row up to the diagonal."""
+    return tuple(
+        tuple(_sum(column, columns[j]) for j in range(i + 1))
+        for i, column in enumerate(columns)
+    )
 
 
 def side_by_side(arrays: Sequence[Array]) -> Array:

@@ -10,26 +10,28 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
 from brdffit import numerics
-from brdffit.compiled import compiled
 from brdffit.fit.texel_basis import TexelProblem
 from brdffit.fit.texel_solve import Solved
 from brdffit.fit.transforms import to_natural
 from brdffit.fit.uncertainty import INVOLVED, WIDE
+from brdffit.types import AnyArray
 
 UNSEEN = 1e-6  # share of a variable that others leave, and that is mere rounding
 
 
 class Found(eqx.Module):
-    """The fits of a block in natural units; see `TexelFits`."""
+    """The fits of a block in natural units; see `TexelFits`.
 
-    natural: Float[Array, "n texel"]
-    standard_errors: Float[Array, "n texel"]
-    rms: Float[Array, " texel"]
-    converged: Bool[Array, " texel"]
-    at_bound: Bool[Array, " texel"]
+    ``enough`` is True where a texel has as many values as unknowns.
+    """
+
+    natural: Float[AnyArray, "n texel"]
+    standard_errors: Float[AnyArray, "n texel"]
+    rms: Float[AnyArray, " texel"]
+    at_bound: Bool[AnyArray, " texel"]
+    enough: Bool[AnyArray, " texel"]
 
 
-@compiled
 def examine(problem: TexelProblem, solved: Solved, known_sigma: bool | Array) -> Found:
     """Values, errors and bounds of the points that were reached."""
     x, layout = solved.progress.x, problem.layout
@@ -61,8 +63,8 @@ def examine(problem: TexelProblem, solved: Solved, known_sigma: bool | Array) ->
         natural=natural,
         standard_errors=jnp.where(fixed, 0.0, error),
         rms=jnp.where(jnp.isfinite(rms), rms, 0.0),
-        converged=solved.progress.converged & enough,
         at_bound=jnp.any(on_bound, axis=0),
+        enough=enough,
     )
 
 

@@ -10,18 +10,20 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
-from brdffit.compiled import compiled
 from brdffit.fit.quadratic import minimise_in_boxes
 from brdffit.fit.solve import FIRST_DAMPING, LEAST_GAIN
 from brdffit.fit.start import typical_box
-from brdffit.fit.texel_basis import TexelBlock, TexelProblem, observed
+from brdffit.fit.texel_basis import Observed, TexelBlock, TexelProblem, observed
 from brdffit.fit.texel_equations import (
+    Matrix,
     Sums,
+    Vector,
     best_linear,
     eliminated,
     side_by_side,
     sums,
 )
+from brdffit.types import AnyArray
 
 RTOL = 1e-5  # relative decrease at which to stop; a few hundredths of an error bar
 
@@ -37,11 +39,11 @@ class Progress(eqx.Module):
         steps: Points evaluated with derivatives.
     """
 
-    x: Float[Array, "n texel"]
-    damping: Float[Array, " texel"]
-    growth: Float[Array, " texel"]
-    converged: Bool[Array, " texel"]
-    steps: Int[Array, " texel"]
+    x: Float[AnyArray, "n texel"]
+    damping: Float[AnyArray, " texel"]
+    growth: Float[AnyArray, " texel"]
+    converged: Bool[AnyArray, " texel"]
+    steps: Int[AnyArray, " texel"]
 
 
 class Solved(eqx.Module):
@@ -70,10 +72,46 @@ class _State(eqx.Module):
     predicted: Float[Array, " texel"]
 
 
-def screen(problem: TexelProblem, block: TexelBlock, starts: Array) -> Progress:
-    """The best of all starts ``(start, n)`` for each texel, the linear ones solved."""
+def begun(x: Float[AnyArray, "n texel"]) -> Progress:
+    """Progress of texels that begin at ``x``."""
+    texels, dtype = x.shape[1], x.dtype
+    return Progress(
+        x=x,
+        damping=np.full(texels, FIRST_DAMPING, dtype),
+        growth=np.full(texels, 2, dtype),
+        converged=np.zeros(texels, bool),
+        steps=np.zeros(texels, np.int32),
+    )
+
+
+def solve(
+    problem: TexelProblem,
+    block: TexelBlock,
+    begin: Progress,
+    starts: Float[Array, "start n"],
+    tried: int | Array,
+    most: int | Array,
+) -> Solved:
+    """Begin at the best of some starts, and go up to ``most`` steps.
+
+    Args:
+        problem: What all texels have in common.
+        block: What was observed of some of them.
+        begin: Where they stand.
+        starts: Points in solver coordinates.
+        tried: How many of them to try; with none, texels go on from ``begin``.
+        most: Steps for each texel that has not converged.
+    """
     seen = observed(problem, block)
-    places, texels = problem.linear_places, block.value.shape[2]
+    x = _screened(problem, seen, begin.x, starts, tried)
+    return _refined(problem, seen, eqx.tree_at(lambda b: b.x, begin, x), most)
+
+
+def _screened(
+    problem: TexelProblem, seen: Observed, x: Array, starts: Array, tried: int | Array
+) -> Array:
+    """The best of the starts for each texel, the linear parameters solved."""
+    places = problem.linear_places
     low, high = (box[places][..., None] for box in typical_box(problem.layout))
 
     def try_one(i, best):
@@ -86,23 +124,14 @@ def screen(problem: TexelProblem, block: TexelBlock, starts: Array) -> Progress:
         trial = _put(jnp.broadcast_to(start[:, None], x.shape), places, linear)
         return _where(cost < least, (trial, cost), best)
 
-    x = jnp.broadcast_to(starts[0][:, None], (starts.shape[1], texels))
-    least = jnp.full(texels, jnp.inf, x.dtype)
-    x, _ = jax.lax.fori_loop(0, len(starts), try_one, (x, least))
-    return Progress(
-        x=x,
-        damping=jnp.full_like(least, FIRST_DAMPING),
-        growth=jnp.full_like(least, 2),
-        converged=jnp.zeros(texels, bool),
-        steps=jnp.zeros(texels, jnp.int32),
-    )
+    least = jnp.full(x.shape[1], jnp.inf, x.dtype)
+    return jax.lax.fori_loop(0, tried, try_one, (x, least))[0]
 
 
-def refine(
-    problem: TexelProblem, block: TexelBlock, begin: Progress, most: int | Array
+def _refined(
+    problem: TexelProblem, seen: Observed, begin: Progress, most: int | Array
 ) -> Solved:
     """Up to ``most`` steps of each texel that has not converged."""
-    seen = observed(problem, block)
     affine, places = problem.residual.affine, problem.solved_places
     lower, upper = (b[places][:, None] for b in (problem.lower, problem.upper))
     eps = 8 * jnp.finfo(seen.value.dtype).eps
@@ -154,7 +183,7 @@ def refine(
         taken, now = state
         return (taken < most) & ~jnp.all(now.progress.converged)
 
-    texels = block.value.shape[2]
+    texels = begin.x.shape[1]
     empty = jax.eval_shape(lambda: sums(problem, seen, begin.x))
     state = _State(
         progress=begin,
@@ -167,7 +196,9 @@ def refine(
         unfinished, lambda state: (state[0] + 1, advance(state[1])), (0, state)
     )
     everything = np.arange(len(begin.x)), problem.local_places
-    _, hessian = _assembled(end.sums.gradient, end.sums.gram, *everything)
+    _, hessian = _assembled(
+        end.sums.gradient, end.sums.gram, *everything, jnp.zeros_like(end.cost)
+    )
     return Solved(end.progress, end.cost, seen.count, hessian)
 
 
@@ -177,34 +208,40 @@ def _equations(problem: TexelProblem, found: Sums) -> tuple[Array, Array]:
     if problem.residual.affine:
         gradient, gram = eliminated(gram, gradient, found.free)
         places = places[len(found.free) :]
-    return _assembled(gradient, gram, problem.solved_places, places)
+    zero = jnp.zeros_like(found.cost[0])
+    return _assembled(gradient, gram, problem.solved_places, places, zero)
 
 
 def _assembled(
-    gradient: Array, gram: Array, wanted: np.ndarray, places: np.ndarray
+    gradient: Vector, gram: Matrix, wanted: np.ndarray, places: np.ndarray, zero: Array
 ) -> tuple[Array, Array]:
-    """Equations ``(p, channel, texel)`` of all channels, added where they belong.
+    """Equations of all channels, added where they belong.
 
     Args:
         gradient: Derivatives of each channel.
-        gram: Second derivatives of each channel.
+        gram: Second derivatives of each channel, row by row up to the diagonal.
         wanted: Places that the whole has, in its order.
         places: Place ``(p, channel)`` of each derivative.
+        zero: Nothing, for each texel.
     """
-    size, texels = len(wanted), gram.shape[-1]
+    size = len(wanted)
     index = {place: i for i, place in enumerate(wanted)}
-    if not size:
-        return jnp.zeros((0, texels), gram.dtype), jnp.zeros((0, 0, texels), gram.dtype)
-    zero = jnp.zeros(texels, gram.dtype)
     vector, matrix = [zero] * size, [[zero] * size for _ in wanted]
     # term by term: ten times faster than to scatter them
     for i, c in np.ndindex(*places.shape):
         row = index[places[i, c]]
-        vector[row] = vector[row] + gradient[i, c]
+        vector[row] = vector[row] + _of_channel(gradient[i], c)
         for j in range(len(places)):
-            column = index[places[j, c]]
-            matrix[row][column] = matrix[row][column] + gram[i, j, c]
+            column, entry = index[places[j, c]], gram[max(i, j)][min(i, j)]
+            matrix[row][column] = matrix[row][column] + _of_channel(entry, c)
+    if not size:
+        return jnp.zeros((0, *zero.shape)), jnp.zeros((0, 0, *zero.shape))
     return side_by_side(vector), side_by_side([side_by_side(row) for row in matrix])
+
+
+def _of_channel(entry: Array, channel: int) -> Array:
+    """The part of an entry, of which there may be one for all channels."""
+    return entry[min(channel, len(entry) - 1)]
 
 
 def _put(x: Array, places: np.ndarray, values: Array) -> Array:
@@ -220,6 +257,3 @@ def _where(choose: Array, new, old):
     return jax.tree.map(
         lambda n, o: jnp.where(choose.reshape(*[1] * (n.ndim - 1), -1), n, o), new, old
     )
-
-
-screen_block, refine_block = compiled(screen), compiled(refine)

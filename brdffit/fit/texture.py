@@ -8,6 +8,8 @@ enough for most; the others are gathered and go on in blocks of their own.
 import os
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from itertools import repeat
 from typing import Any
 
 import jax
@@ -15,12 +17,13 @@ import jax.numpy as jnp
 import numpy as np
 
 from brdffit.catalogue import from_name
+from brdffit.compiled import ELEMENTWISE, compiled
 from brdffit.fit.conditions import Numbers, held_values, hold_at
 from brdffit.fit.residual import RESIDUALS, Residual, cosine_weighted
 from brdffit.fit.start import spread_starts
 from brdffit.fit.texel_basis import TexelBlock, TexelProblem
 from brdffit.fit.texel_errors import Found, examine
-from brdffit.fit.texel_solve import Progress, Solved, refine_block, screen_block
+from brdffit.fit.texel_solve import Progress, begun, solve
 from brdffit.fit.texels import TexelFits as TexelFits, Texels as Texels
 from brdffit.fit.transforms import Layout, bounds, channel_models
 from brdffit.models import AbstractBRDF
@@ -33,6 +36,15 @@ MORE_STARTS = 24
 # of each round; texels that need more go on without the others
 STEPS = (4, 2, 2, 4, 8, 16, 32)
 MAX_ROUNDS = len(STEPS)
+
+
+@partial(compiled, options=ELEMENTWISE)
+def _fits(
+    problem, block, begin, starts, tried, most, known_sigma
+) -> tuple[Progress, Found]:
+    """A block begun or gone on with, and examined, in one program; see `solve`."""
+    solved = solve(problem, block, begin, starts, tried, most)
+    return solved.progress, examine(problem, solved, known_sigma)
 
 
 def fit_texels(
@@ -81,42 +93,39 @@ def fit_texels(
     whole = bool(np.isfinite(np.sum(texels.value)))
     known_sigma = texels.sigma is not None
 
-    def solve(job: tuple[np.ndarray, Progress | None, int]) -> tuple[Solved, Found]:
-        """Screen a block, or go on with it."""
-        places, progress, steps = job
+    def of_block(places, begin, tried, steps) -> tuple[Progress, Found]:
         block = _block(texels, places, whole)
         with jax.enable_x64(False):
-            begin = progress or screen_block(problem, block, starts)
-            solved = refine_block(problem, block, begin, steps)
-            found = examine(problem, solved, known_sigma)
-            return jax.tree.map(np.asarray, (solved, found))
+            found = _fits(problem, block, begin, starts, tried, steps, known_sigma)
+            return jax.tree.map(np.asarray, found)
 
-    count = len(texels)
-    every = np.arange(count)
-    jobs = [(places, None, STEPS[0]) for places in _in_blocks(every)]
+    def advance(places: np.ndarray, begin: Progress, tried: int, steps: int):
+        """Texels at these places, each from where it stands, block by block."""
+        blocks = _in_blocks(places)
+        begins = [jax.tree.map(lambda a, p=p: a[..., p], begin) for p in blocks]
+        parts = list(pool.map(of_block, blocks, begins, repeat(tried), repeat(steps)))
+        return jax.tree.map(
+            lambda *arrays: np.concatenate(arrays, -1)[..., : len(places)], *parts
+        )
+
+    begin = begun(np.repeat(np.asarray(starts[:1]).T, len(texels), axis=1))
     with ThreadPoolExecutor(threads or len(os.sched_getaffinity(0))) as pool:
-        solved, found = _joined(list(pool.map(solve, jobs)), count)
+        progress, found = advance(np.arange(len(texels)), begin, len(starts), STEPS[0])
         for steps in STEPS[1:max_rounds]:
-            left = ~solved.progress.converged & (solved.count >= problem.unknowns)
-            rest = np.flatnonzero(left)
+            rest = np.flatnonzero(found.enough & ~progress.converged)
             if not rest.size:
                 break
-            jobs = [
-                (p, jax.tree.map(lambda a, p=p: a[..., p], solved.progress), steps)
-                for p in _in_blocks(rest)
-            ]
-            again = _joined(list(pool.map(solve, jobs)), rest.size)
-            for old, new in zip(
-                *map(jax.tree.leaves, ((solved, found), again)), strict=True
-            ):
+            again = advance(rest, progress, 0, steps)
+            leaves = map(jax.tree.leaves, ((progress, found), again))
+            for old, new in zip(*leaves, strict=True):
                 old[..., rest] = new
     places = problem.layout.places
     return TexelFits(
         parameters={n: found.natural[list(p)] for n, p in places.items()},
         standard_errors={n: found.standard_errors[list(p)] for n, p in places.items()},
         rms=found.rms,
-        converged=found.converged,
-        steps=solved.progress.steps,
+        converged=progress.converged & found.enough,
+        steps=progress.steps,
         at_bound=found.at_bound,
     )
 
@@ -165,10 +174,3 @@ def _block(texels: Texels, places: np.ndarray, whole: bool) -> TexelBlock:
 
     names = ("wi", "wo", "weight", "value", "mask", "sigma")
     return TexelBlock(**{n: pick(getattr(texels, n)) for n in names}, whole=whole)
-
-
-def _joined(parts: list, count: int):
-    """Blocks side by side, without the repeated texels."""
-    return jax.tree.map(
-        lambda *arrays: np.concatenate(arrays, axis=-1)[..., :count], *parts
-    )
