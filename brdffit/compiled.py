@@ -1,7 +1,9 @@
 """Compilation with the options that make the programs of a fit small and fast."""
 
 import functools
+import weakref
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any, TypeVar
 
 import jax
@@ -20,6 +22,8 @@ Result = TypeVar("Result")
 OPTIONS = {"xla_cpu_use_fusion_emitters": False, "xla_cpu_prefer_vector_width": 512}
 # Elementwise loops are the faster by a third with the newer emitters.
 ELEMENTWISE = {"xla_cpu_prefer_vector_width": 512}
+
+MAPPINGS = 30_000  # of memory, at which programs are forgotten; see `make_room`
 
 
 def compiled(
@@ -40,6 +44,19 @@ def compiled(
     return _Program(function, static, options)  # pyright: ignore[reportReturnType]
 
 
+def make_room() -> None:
+    """Forget all compiled programs when this process holds a great many.
+
+    Each takes some mappings of memory, of which Linux gives a process 65,530. Without
+    any left there is no memory, whatever is free, and the process comes to grief.
+    """
+    mappings = Path("/proc/self/maps")
+    if mappings.exists() and mappings.read_bytes().count(b"\n") > MAPPINGS:
+        for program in _programs:
+            program.ready.clear()
+        jax.clear_caches()
+
+
 class _Program:
     """A function that is compiled when it is called, or found compiled."""
 
@@ -48,11 +65,12 @@ class _Program:
     ) -> None:
         functools.update_wrapper(self, function)
         self.function, self.static, self.options = function, static, options
-        self.ready = {}
+        self.ready: dict[tuple, Callable] = {}
         self.jitted = _variants(function, static, options)
         # what JAX has compiled of a function it does not compile again, even where an
         # executable to keep is wanted, which must be new: so this is another function
         self.to_keep = _variants(functools.partial(function), static, options)
+        _programs.add(self)
 
     def __call__(self, *arguments: Any, **named: Any) -> Any:
         if executables.store is None or _unusual():
@@ -92,6 +110,9 @@ class _Program:
                 )
             store.save(name, found)
         return found
+
+
+_programs: weakref.WeakSet[_Program] = weakref.WeakSet()
 
 
 def _variants(

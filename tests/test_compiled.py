@@ -1,10 +1,12 @@
+from pathlib import Path
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from brdffit import executables, identity
-from brdffit.compiled import compiled
+from brdffit import compiled as module, executables, identity
+from brdffit.compiled import compiled, make_room
 from brdffit.executables import Executables
 from brdffit.numerics import norm
 
@@ -84,3 +86,23 @@ def test_nothing_is_kept_where_jit_is_off(store):
     with jax.disable_jit():
         assert compiled(norm)(jnp.asarray(X)) == 5
     assert files(kept) == []
+
+
+@pytest.mark.skipif(
+    not Path("/proc/self/maps").exists(), reason="only Linux tells its mappings"
+)
+def test_programs_are_forgotten_where_there_are_too_many(store, monkeypatch):
+    _, traced = store
+    program = compiled(norm)
+    assert program(X) == 5
+    make_room()
+    assert program.ready
+    monkeypatch.setattr(module, "MAPPINGS", 0)
+    make_room()
+    assert not program.ready
+    traced.clear()
+    jax.jit(norm)(X)
+    make_room()
+    jax.jit(norm)(X)
+    assert traced.count("norm") == 2
+    assert program(X) == 5

@@ -22,6 +22,7 @@ from brdffit.batch.ledger import Record, fingerprint, open_ledger, seal
 from brdffit.batch.run import Outcome, run
 from brdffit.batch.tally import Tally
 from brdffit.catalogue import from_name
+from brdffit.compiled import make_room
 from brdffit.files import replacing, sentence
 from brdffit.fit import RESIDUALS, fit
 from brdffit.names import look_up
@@ -78,6 +79,7 @@ class FitFile:
 
     def __call__(self, job: Job) -> Outcome:
         """Keep what still holds, or else fit; a failure is an outcome as well."""
+        make_room()
         home = self.folder / FITS / job.key
         files = [home / RESULT, home / THUMBNAIL]
         try:

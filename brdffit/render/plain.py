@@ -28,7 +28,7 @@ from brdffit.scene.hits import LEAST, least_distance
 from brdffit.scene.nearest import ROOM, blocked, first_of
 
 SIZES = (262144, 65536, 16384, 1024)  # pixels of a block: few, so few compilations
-FEW = 64  # spheres, planes and triangles
+FEW = 64  # spheres, planes and triangles; lights, each of which adds to the program
 OTHERS = (bump.NAME, cut_out.NAME, bounces.NAME, environment.NAME)
 
 
@@ -54,7 +54,7 @@ def is_plain(scene: Scene, geometry: Geometry, plan: Plan) -> bool:
         or any(plan.on(effect) for effect in OTHERS)
         or any(isinstance(shape, Mesh) and shape.smooth for shape in scene.shapes)
         or geometry.large
-        or len(geometry.owner) > FEW
+        or max(len(geometry.owner), len(scene.lights)) > FEW
     )
 
 
