@@ -14,6 +14,7 @@ from experiments.tradeoff import rounded
 SPHERE = RESULTS.parent / "data_synthetic" / "cook_torrance_three_lights.exr"
 PAINT = ("ggx+ggx_lobe", "ggx", "cook_torrance", "phong")
 BALL = ("cook_torrance", "phong", "oren_nayar")
+EXACT = 1e4  # times less error than the next: nothing but rounding is left
 
 
 def rows_of(name, comparison):
@@ -36,10 +37,11 @@ def finding(rows):
     for example in dict.fromkeys(row["example"] for row in rows):
         first, second = [row for row in rows if row["example"] == example][:2]
         ratio = second["held_out"] / first["held_out"]
-        said.append(
-            f"{first['model']} explains the {example}, with 1/{rounded(ratio)} of the "
-            f"error of {second['model']}"
-        )
+        better = f"{rounded(ratio)} times better than {second['model']}"
+        if ratio > EXACT:
+            left = rounded(second["held_out"])
+            better = f"exactly, where {second['model']} leaves an error of {left}"
+        said.append(f"{first['model']} explains the {example} {better}")
     return "; ".join(said)
 
 
