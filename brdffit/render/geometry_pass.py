@@ -21,6 +21,8 @@ from brdffit.samples import Pixels, Samples, default_channels
 from brdffit.scene import Geometry, Hits, Mesh, Scene
 from brdffit.types import Values, Vectors
 
+MOST = 2**28  # pairs of a pixel and a direction, of 24 bytes each
+
 
 def trace(
     scene: Scene, plan: Plan | None = None, channels: int | None = None
@@ -38,8 +40,9 @@ def trace(
             three when each light gives one number.
 
     Raises:
-        ValueError: The lights have another number of channels, or a style is on, which
-            is no measurement of light.
+        ValueError: The lights have another number of channels; a style is on, which is
+            no measurement of light; or pixels and directions of the light probe are too
+            many to be kept.
     """
     channels = scene.channels_for(channels)
     plan = plan or plan_for_tracing(scene, channels=channels)
@@ -54,6 +57,13 @@ def trace(
         return _of_blocks(scene, geometry, plan, channels, own)
     hits = meeting(geometry, plan)(*scene.camera.rays())
     hits = hits.take(~own[hits.shape])
+    if len(hits.ray) * plan.directions > MOST:
+        raise ValueError(
+            f"{len(hits.ray):,} pixels under {plan.directions:,} directions of the "
+            f"light probe are more than the {MOST:,} pairs that are kept at once: plan "
+            "with a higher tolerance, lower the `resolution` of the camera, or render "
+            "instead."
+        )
     return lit(scene, geometry, hits, plan, channels)
 
 

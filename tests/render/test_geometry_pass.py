@@ -4,11 +4,19 @@ import pytest
 
 from brdffit.effects.plan import plan_for_tracing
 from brdffit.models import MODELS
-from brdffit.render import materials_of, radiance, render, trace, trace_paths
+from brdffit.render import (
+    geometry_pass,
+    materials_of,
+    radiance,
+    render,
+    trace,
+    trace_paths,
+)
 from brdffit.render.plain import is_plain
 from brdffit.scene import (
     Ambient,
     Directional,
+    Environment,
     Geometry,
     Orthographic,
     Plane,
@@ -124,3 +132,14 @@ def test_plain_scenes_are_traced_in_one_program_as_all_others_are_in_steps(light
     steps = radiance(materials_of(scene, brdf), trace_paths(scene, plan, 3))
     image = render(brdf, scene, plan).reshape(-1, 3)
     np.testing.assert_allclose(image, steps, rtol=1e-5, atol=1e-6)
+
+
+def test_more_directions_than_can_be_kept_are_refused(monkeypatch):
+    sky = Environment(np.ones((4, 8, 3), np.float32))
+    scene = Scene(Orthographic(8), (Sphere(),), (sky,))
+    assert len(trace(scene, plan_for_tracing(scene)))
+    monkeypatch.setattr(geometry_pass, "MOST", 100)
+    with pytest.raises(
+        ValueError, match="52 pixels under 16 directions .* than the 100"
+    ):
+        trace(scene, plan_for_tracing(scene))
