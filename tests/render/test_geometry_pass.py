@@ -140,6 +140,6 @@ def test_more_directions_than_can_be_kept_are_refused(monkeypatch):
     assert len(trace(scene, plan_for_tracing(scene)))
     monkeypatch.setattr(geometry_pass, "MOST", 100)
     with pytest.raises(
-        ValueError, match="52 pixels under 16 directions .* than the 100"
+        ValueError, match="52 pixels under 32 directions .* than the 100"
     ):
         trace(scene, plan_for_tracing(scene))
