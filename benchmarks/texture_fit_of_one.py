@@ -22,9 +22,9 @@ TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
 LOST = 1e-3  # share of texels that a looser tolerance may lose
 
 
-def ours(task: Texture, threads: int):
-    """`fit_texels`."""
-    return task.points(fit_texels(task.model, task.texels, threads=threads).parameters)
+def ours(task: Texture):
+    """`fit_texels`, by as many threads as it takes for the cores that it may use."""
+    return task.points(fit_texels(task.model, task.texels).parameters)
 
 
 def tiny_solver(task: Texture, threads: int, tolerance: float, start: np.ndarray):
@@ -96,7 +96,7 @@ def measure(model: str, texels: int, few: int, threads: int, turns: int) -> list
     if threads == 1:
         os.sched_setaffinity(0, {max(ALL_CORES)})
     task, small = texture(model, texels), texture(model, few)
-    calls = {"brdffit": (task, lambda: ours(task, threads))}
+    calls = {"brdffit": (task, lambda: ours(task))}
     least = task.costs(task.truth)
     if why := ceres.why_absent():
         print(why)

@@ -4,6 +4,7 @@ The package reads from top to bottom; a module imports only from lines above its
 
     types, numerics        shapes; functions with finite gradients
     files, names           files whole or absent; names looked up once
+    processor              how many cores there are
     download               a download that goes on where it stopped
     identity, executables  what a program depends on; whole programs, kept on disk
     compiled, cache        compiler options; compiled programs for later processes

@@ -6,13 +6,14 @@ numbers, and nothing big goes through a scheduler.
 """
 
 import functools
-import os
 import pickle
 import queue
 import threading
 from collections.abc import Callable, Generator, Iterable
 from itertools import islice
 from typing import Any, TypeVar
+
+from brdffit.processor import cores
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
@@ -43,13 +44,6 @@ def outcomes(
     if cluster is None:
         return _by_threads(task, items, cores())
     return _by_workers(task, items, cluster)
-
-
-def cores() -> int:
-    """Number of cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):  # not on every system
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _by_threads(

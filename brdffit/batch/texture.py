@@ -81,7 +81,7 @@ class FitChunk:
             texels,
             residual=self.residual,
             fixed=self.fixed,
-            threads=1,  # chunks are what is done at the same time
+            threads=2,  # by as many chunks as there are cores; see `fit_texels`
         )
         for name, values in _results(fits).items():
             arrays[name][..., chunk.start : chunk.stop] = values

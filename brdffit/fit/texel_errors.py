@@ -84,10 +84,9 @@ def spread(
     index = jnp.arange(size)
     diagonal = hessian[index, index]
     unit = jnp.where(diagonal > 0, jax.lax.rsqrt(jnp.maximum(diagonal, 1e-37)), 0)
-    scaled = hessian * unit[:, None] * unit[None]
-
-    def sweep(k, state):
-        matrix, swept = state
+    matrix = hessian * unit[:, None] * unit[None]
+    swept = jnp.zeros(free.shape, bool)
+    for k in range(size):
         pivot = matrix[k, k]
         solid = free[k] & (pivot > UNSEEN)
         inverse = jnp.where(solid, 1 / jnp.where(solid, pivot, 1), 0)
@@ -98,10 +97,7 @@ def spread(
         rest = jnp.where(here[None], row[:, None], rest)
         rest = jnp.where(here[:, None] & here[None], -inverse[None, None], rest)
         matrix = jnp.where(solid[None, None], rest, matrix)
-        return matrix, swept | (here & solid[None])
-
-    none = jnp.zeros(free.shape, bool)
-    matrix, swept = jax.lax.fori_loop(0, size, sweep, (scaled, none))
+        swept |= here & solid[None]
     left = matrix[index, index]
     alone = 1 / jnp.where(left > UNSEEN, left, 1)
     variance = jnp.where(swept, -left, jnp.where(left > UNSEEN, alone, jnp.inf))

@@ -23,7 +23,6 @@ from brdffit.fit.texel_equations import (
     side_by_side,
     sums,
 )
-from brdffit.types import AnyArray
 
 RTOL = 1e-5  # relative decrease at which to stop; a few hundredths of an error bar
 
@@ -39,11 +38,11 @@ class Progress(eqx.Module):
         steps: Points evaluated with derivatives.
     """
 
-    x: Float[AnyArray, "n texel"]
-    damping: Float[AnyArray, " texel"]
-    growth: Float[AnyArray, " texel"]
-    converged: Bool[AnyArray, " texel"]
-    steps: Int[AnyArray, " texel"]
+    x: Float[Array, "n texel"]
+    damping: Float[Array, " texel"]
+    growth: Float[Array, " texel"]
+    converged: Bool[Array, " texel"]
+    steps: Int[Array, " texel"]
 
 
 class Solved(eqx.Module):
@@ -72,15 +71,14 @@ class _State(eqx.Module):
     predicted: Float[Array, " texel"]
 
 
-def begun(x: Float[AnyArray, "n texel"]) -> Progress:
+def begun(x: Float[Array, "n texel"]) -> Progress:
     """Progress of texels that begin at ``x``."""
-    texels, dtype = x.shape[1], x.dtype
     return Progress(
         x=x,
-        damping=np.full(texels, FIRST_DAMPING, dtype),
-        growth=np.full(texels, 2, dtype),
-        converged=np.zeros(texels, bool),
-        steps=np.zeros(texels, np.int32),
+        damping=jnp.full_like(x[0], FIRST_DAMPING),
+        growth=jnp.full_like(x[0], 2),
+        converged=jnp.zeros_like(x[0], bool),
+        steps=jnp.zeros_like(x[0], jnp.int32),
     )
 
 
@@ -108,7 +106,11 @@ def solve(
 
 
 def _screened(
-    problem: TexelProblem, seen: Observed, x: Array, starts: Array, tried: int | Array
+    problem: TexelProblem,
+    seen: Observed,
+    x: Array,
+    starts: Array,
+    tried: int | Array,
 ) -> Array:
     """The best of the starts for each texel, the linear parameters solved."""
     places = problem.linear_places

@@ -1,11 +1,10 @@
 """Many small fits: one model, fitted to every texel of a texture on its own.
 
 Texels are solved in blocks of equal size, so that one compiled program serves all, and
-on as many threads as there are processors. A screen of a few starts and a few steps are
+on one thread more than there are cores. A screen of a few starts and a few steps are
 enough for most; the others are gathered and go on in blocks of their own.
 """
 
-import os
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
@@ -29,12 +28,13 @@ from brdffit.fit.transforms import Layout, bounds, channel_models
 from brdffit.models import AbstractBRDF
 from brdffit.names import look_up
 from brdffit.parameters import registry_name
+from brdffit.processor import cores
 
-SIZE = 512  # texels in a block: its rows fit into the second-level cache
+SIZE = 1024  # texels in a block: few enough for the cache, enough to be worth a call
 STARTS = {0: 1, 1: 4, 2: 12}  # by number of nonlinear parameters
 MORE_STARTS = 24
 # of each round; texels that need more go on without the others
-STEPS = (4, 2, 2, 4, 8, 16, 32)
+STEPS = (6, 8, 16, 32)
 MAX_ROUNDS = len(STEPS)
 
 
@@ -70,7 +70,8 @@ def fit_texels(
         fixed: Parameters to hold in all texels, with their values.
         max_rounds: Rounds of steps after which a texel that does not converge is given
             up.
-        threads: Number of threads; by default one for each processor.
+        threads: Number of threads; by default one more than cores, so that none waits
+            for a thread that reads or writes.
 
     Returns:
         Parameters of all texels with their errors. One that stopped early or has too
@@ -108,8 +109,9 @@ def fit_texels(
             lambda *arrays: np.concatenate(arrays, -1)[..., : len(places)], *parts
         )
 
-    begin = begun(np.repeat(np.asarray(starts[:1]).T, len(texels), axis=1))
-    with ThreadPoolExecutor(threads or len(os.sched_getaffinity(0))) as pool:
+    begin = begun(jnp.repeat(starts[:1].T, len(texels), axis=1))
+    begin = jax.tree.map(np.asarray, begin)
+    with ThreadPoolExecutor(threads or cores() + 1) as pool:
         progress, found = advance(np.arange(len(texels)), begin, len(starts), STEPS[0])
         for steps in STEPS[1:max_rounds]:
             rest = np.flatnonzero(found.enough & ~progress.converged)

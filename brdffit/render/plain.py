@@ -5,7 +5,6 @@ falls there is one pure function. Compiled as a whole, it writes nothing but sam
 blocks of pixels that stay in the processor's cache, several of them at once.
 """
 
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
@@ -20,6 +19,7 @@ from brdffit.compiled import compiled
 from brdffit.effects import Plan, ambient, bounces, bump, cut_out, environment, shadows
 from brdffit.effects.lights import incident
 from brdffit.geometry import dot
+from brdffit.processor import cores
 from brdffit.render.weights import weighted
 from brdffit.samples import Samples, default_channels
 from brdffit.scene import Directional, Geometry, Mesh, Point, Scene, ShadowRays
@@ -114,7 +114,7 @@ def for_each_block(
         work(Block(here, samples, owner[: here.stop - here.start]))
 
     one(0)  # which compiles
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with ThreadPoolExecutor(cores()) as pool:
         list(pool.map(one, range(size, count, size)))
 
 
