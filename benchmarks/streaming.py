@@ -16,6 +16,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
 import brdffit
 from benchmarks.cluster import CHUNK, MODEL, SEED, texture
@@ -85,31 +86,45 @@ def main(folder=RESULTS / "streaming", sizes=SIZES, chunk=CHUNK):
             rows.append({"texels": texels} | one(path, texels, chunk))
             print(texels, "done", flush=True)
     record.table(rows)
-    record.figure(chart(rows))
     logs = np.log([[row["texels"], row["seconds"]] for row in rows])
     slope = float(np.polyfit(logs[:, 0], logs[:, 1], 1)[0])
     memory = [row["peak_mb"] for row in rows]
     growth = max(memory) / min(memory)
-    record.close(slope=slope, memory_growth=growth, chunk=chunk, **facts(1))
+    finding = (
+        f"Time grows with the power {slope:.2f} of the number of texels, memory by "
+        f"{growth - 1:.0%}"
+    )
+    record.figure(chart(rows, finding))
+    record.close(
+        finding=finding + ".",
+        slope=slope,
+        memory_growth=growth,
+        chunk=chunk,
+        **facts(1),
+    )
     return rows
 
 
 @styled
-def chart(rows):
+def chart(rows, title):
     """Time and memory over the number of texels."""
     figure = new_figure(7.2, 2.9)
     left, right = figure.subplots(1, 2)
     x = [row["texels"] / 2**20 for row in rows]
     style = {"color": COLOURS[0], "marker": "o", "markersize": 4}
     left.plot(x, [row["seconds"] for row in rows], **style)
-    left.set(xscale="log", yscale="log", ylabel="time of a fit [s]")
+    left.set(xscale="log", yscale="log", ylabel="time of a fit [s], log scale")
     right.plot(x, [row["peak_mb"] for row in rows], **style)
     right.set(xscale="log", ylabel="peak memory of the process [MB]")
     right.set_ylim(0, 1.25 * max(row["peak_mb"] for row in rows))
     for axes in (left, right):
-        axes.set_xlabel("texels [$2^{20}$]")
+        axes.set_xlabel("texels [$2^{20}$], log scale")
         axes.set_xticks(x, [f"{millions:g}" for millions in x])
-        axes.minorticks_off()
+        axes.xaxis.set_minor_locator(NullLocator())
+    left.yaxis.set_major_locator(LogLocator(subs=(1, 3)))
+    left.yaxis.set_major_formatter("{x:g}")
+    left.yaxis.set_minor_formatter(NullFormatter())
+    figure.suptitle(title)
     return figure
 
 

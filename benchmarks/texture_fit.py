@@ -17,6 +17,7 @@ from benchmarks.record import RESULTS, facts
 from benchmarks.textures import OBSERVATIONS
 from brdffit.plots.style import COLOURS, MUTED, new_figure
 from experiments.record import Record, styled
+from experiments.tradeoff import rounded
 
 MODELS = ("ggx", "cook_torrance", "ward_duer")
 TEXELS, FEW, TURNS = 65_536, 200, 5
@@ -43,6 +44,18 @@ def one(model: str, texels: int, few: int, threads: int, turns: int) -> list[dic
     return json.loads(rows)
 
 
+def finding(rows):
+    """How much faster than the others all models are fitted on all cores."""
+    most = max(row["threads"] for row in rows)
+    own = {
+        row["model"]: row["texels_per_s"]
+        for row in rows
+        if row["contestant"] == "brdffit" and row["threads"] == most
+    }
+    speeds = ", ".join(f"{model} {rounded(speed)}" for model, speed in own.items())
+    return f"Texels a second on {most} cores: {speeds}"
+
+
 @styled
 def chart(rows):
     """Texels per second of every contestant, one panel per model."""
@@ -61,7 +74,8 @@ def chart(rows):
             colour = COLOURS[0] if row["contestant"] == "brdffit" else MUTED
             axes.barh(place, row["texels_per_s"], color=colour, height=0.6)
             axes.annotate(
-                f"{row['texels_per_s']:,.0f}, {row['wrong']} wrong",
+                f"{row['texels_per_s']:,.0f}, "
+                f"{float(row['wrong'].rstrip('%')):.2g} % wrong",
                 (row["texels_per_s"], place),
                 xytext=(3, 0),
                 textcoords="offset points",
@@ -69,8 +83,9 @@ def chart(rows):
                 size=7,
             )
         axes.set_yticks(range(len(own)), names)
-        axes.set(xscale="log", xlabel="texels per second", title=model)
-        axes.set(ylim=(len(own) - 0.5, -0.5), xlim=(100, 3e7))
+        axes.set(xscale="log", xlabel="texels per second, log scale", title=model)
+        axes.set(ylim=(len(own) - 0.5, -0.5), xlim=(10, 3e7))
+    figure.suptitle(finding(rows))
     return figure
 
 
@@ -86,7 +101,9 @@ def main(
         print(model, "done", flush=True)
     record.table(rows)
     record.figure(chart(rows))
-    record.close(observations=OBSERVATIONS, **facts(turns))
+    record.close(
+        finding=finding(rows) + ".", observations=OBSERVATIONS, **facts(turns)
+    )
     return rows
 
 
