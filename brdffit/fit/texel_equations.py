@@ -89,31 +89,6 @@ def best_linear(problem: TexelProblem, seen: Observed, x: Array) -> tuple[Array,
     return linear, jnp.sum(_sum(error, error), axis=0) / 2
 
 
-def eliminated(
-    gram: Matrix, gradient: Vector, free: Bool[Array, "q channel texel"]
-) -> tuple[Vector, Matrix]:
-    """Gradient and second derivative after the linear parameters were solved.
-
-    Args:
-        gram: Second derivative, the linear ones first.
-        gradient: First derivative.
-        free: Which linear parameters are not on a bound.
-    """
-    left, matrix = list(gradient), [list(row) for row in gram]
-    for k in range(len(free)):
-        pivot = matrix[k][k]
-        solid = free[k] & (pivot > 8 * jnp.finfo(pivot.dtype).eps * gram[k][k])
-        inverse = jnp.where(solid, 1 / jnp.where(solid, pivot, 1), 0)
-        for i in range(k + 1, len(left)):
-            share = matrix[i][k] * inverse
-            left[i] = left[i] - share * left[k]
-            for j in range(k + 1, i + 1):
-                matrix[i][j] = matrix[i][j] - share * matrix[j][k]
-    rest = range(len(free), len(left))
-    kept = tuple(tuple(matrix[i][len(free) : i + 1]) for i in rest)
-    return tuple(left[i] for i in rest), kept
-
-
 def _weighted(seen: Observed, basis):
     """Rows and data times the weight of a difference, worked out before all sums."""
     weight = seen.lean * seen.weight

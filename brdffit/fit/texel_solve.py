@@ -10,19 +10,11 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
-from brdffit.fit.quadratic import minimise_in_boxes
 from brdffit.fit.solve import FIRST_DAMPING, LEAST_GAIN
 from brdffit.fit.start import typical_box
 from brdffit.fit.texel_basis import Observed, TexelBlock, TexelProblem, observed
-from brdffit.fit.texel_equations import (
-    Matrix,
-    Sums,
-    Vector,
-    best_linear,
-    eliminated,
-    side_by_side,
-    sums,
-)
+from brdffit.fit.texel_equations import Sums, best_linear, side_by_side, sums
+from brdffit.fit.texel_step import assembled, propose
 
 RTOL = 1e-5  # relative decrease at which to stop; a few hundredths of an error bar
 
@@ -153,15 +145,6 @@ def _refined(
         damping = jnp.where(good, softer, old.damping * old.growth)
         return good, damping, jnp.where(good, 2, 2 * old.growth)
 
-    def propose(x: Array, found: Sums, damping: Array):
-        """The next step within the bounds, and the decrease it promises."""
-        gradient, hessian = _equations(problem, found)
-        eye = jnp.eye(len(places), dtype=x.dtype)[..., None]
-        damped = hessian + eye * hessian * damping[None, None]
-        step, _ = minimise_in_boxes(damped, gradient, lower - x, upper - x)
-        curvature = jnp.sum(hessian * step[None], axis=1)
-        return step, -jnp.sum(step * (gradient + curvature / 2), axis=0)
-
     def advance(state: _State) -> _State:
         """Evaluate the proposed point, take or refuse it, propose the next."""
         old = state.progress
@@ -176,8 +159,8 @@ def _refined(
         x, found, cost = _where(
             good & ~old.converged, now, (old.x, state.sums, state.cost)
         )
-        step, predicted = propose(x[places], found, damping)
-        small = predicted <= RTOL * cost + floor
+        step, predicted = propose(problem, found, x, damping)
+        small = jnp.abs(predicted) <= RTOL * cost + floor
         new = Progress(x, damping, growth, small & jnp.isfinite(cost), old.steps + 1)
         return _State(_where(old.converged, old, new), found, cost, step, predicted)
 
@@ -198,52 +181,10 @@ def _refined(
         unfinished, lambda state: (state[0] + 1, advance(state[1])), (0, state)
     )
     everything = np.arange(len(begin.x)), problem.local_places
-    _, hessian = _assembled(
+    _, hessian = assembled(
         end.sums.gradient, end.sums.gram, *everything, jnp.zeros_like(end.cost)
     )
     return Solved(end.progress, end.cost, seen.count, hessian)
-
-
-def _equations(problem: TexelProblem, found: Sums) -> tuple[Array, Array]:
-    """Gradient and second derivative in what the solver moves."""
-    gradient, gram, places = found.gradient, found.gram, problem.local_places
-    if problem.residual.affine:
-        gradient, gram = eliminated(gram, gradient, found.free)
-        places = places[len(found.free) :]
-    zero = jnp.zeros_like(found.cost[0])
-    return _assembled(gradient, gram, problem.solved_places, places, zero)
-
-
-def _assembled(
-    gradient: Vector, gram: Matrix, wanted: np.ndarray, places: np.ndarray, zero: Array
-) -> tuple[Array, Array]:
-    """Equations of all channels, added where they belong.
-
-    Args:
-        gradient: Derivatives of each channel.
-        gram: Second derivatives of each channel, row by row up to the diagonal.
-        wanted: Places that the whole has, in its order.
-        places: Place ``(p, channel)`` of each derivative.
-        zero: Nothing, for each texel.
-    """
-    size = len(wanted)
-    index = {place: i for i, place in enumerate(wanted)}
-    vector, matrix = [zero] * size, [[zero] * size for _ in wanted]
-    # term by term: ten times faster than to scatter them
-    for i, c in np.ndindex(*places.shape):
-        row = index[places[i, c]]
-        vector[row] = vector[row] + _of_channel(gradient[i], c)
-        for j in range(len(places)):
-            column, entry = index[places[j, c]], gram[max(i, j)][min(i, j)]
-            matrix[row][column] = matrix[row][column] + _of_channel(entry, c)
-    if not size:
-        return jnp.zeros((0, *zero.shape)), jnp.zeros((0, 0, *zero.shape))
-    return side_by_side(vector), side_by_side([side_by_side(row) for row in matrix])
-
-
-def _of_channel(entry: Array, channel: int) -> Array:
-    """The part of an entry, of which there may be one for all channels."""
-    return entry[min(channel, len(entry) - 1)]
 
 
 def _put(x: Array, places: np.ndarray, values: Array) -> Array:

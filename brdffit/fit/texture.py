@@ -31,7 +31,7 @@ from brdffit.parameters import registry_name
 from brdffit.processor import cores
 
 SIZE = 1024  # texels in a block: few enough for the cache, enough to be worth a call
-STARTS = {0: 1, 1: 4, 2: 12}  # by number of nonlinear parameters
+STARTS = {0: 1, 1: 4}  # by number of nonlinear parameters
 MORE_STARTS = 24
 # of each round; texels that need more go on without the others
 STEPS = (6, 8, 16, 32)

@@ -24,6 +24,12 @@ TRUTHS = {
         "k": (1.0, 3.0),
     },
     "oren_nayar": {"albedo": (0.2, 0.8), "sigma": (0.2, 0.8)},
+    "cook_torrance": {
+        "diffuse": (0.3, 0.9),
+        "specular": (0.3, 0.9),
+        "f0": (0.3, 0.9),
+        "alpha": (0.07, 0.3),
+    },
 }
 FIXED = {"conductor_ggx": {"specular": 1.0}}
 
@@ -83,6 +89,15 @@ def test_truth_lies_within_the_errors(model):
         off = np.abs((found.parameters[name] - truth[name]) / error)[known]
         assert 0.5 < np.median(off) < 0.85
         assert np.mean(off > 5) < 0.02
+
+
+def test_weight_and_f0_of_a_lobe_that_do_nearly_the_same_are_found():
+    texels, truth = simulated("cook_torrance", 64)
+    found = fit_texels("cook_torrance", texels)
+    assert np.mean(found.converged) > 0.98
+    best = remade("cook_torrance", texels, truth).value - texels.value
+    least = np.sqrt(np.mean(best**2, axis=(0, 1)))
+    assert np.all(found.rms < 1.001 * least)
 
 
 def single_fit(model, texels, place):
