@@ -101,9 +101,7 @@ def main(
         print(model, "done", flush=True)
     record.table(rows)
     record.figure(chart(rows))
-    record.close(
-        finding=finding(rows) + ".", observations=OBSERVATIONS, **facts(turns)
-    )
+    record.close(finding=finding(rows) + ".", observations=OBSERVATIONS, **facts(turns))
     return rows
 
 

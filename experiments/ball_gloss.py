@@ -27,8 +27,9 @@ from scipy.optimize import minimize
 import brdffit
 from brdffit.fit.appearance import sphere_difference
 from brdffit.plots.spheres import plot_difference, plot_sphere
-from brdffit.plots.style import new_figure, spread
+from brdffit.plots.style import entitle, new_figure, spread
 from brdffit.render.shading import compiled_shade
+from experiments import captions
 from experiments.merl_standins import DATA
 from experiments.record import RESULTS, Record, styled
 
@@ -141,7 +142,7 @@ def rows_of(data, fits, shown):
 
 
 @styled
-def pictures(data, fits):
+def pictures(data, fits, title):
     """Fitted spheres above, and what they differ by from the photographs below."""
     frames = spread(range(data.pixels.shape[0]), FRAMES)
     figure = new_figure(0.9 + 1.9 * len(fits), 0.5 + 3.8 * len(frames))
@@ -163,7 +164,10 @@ def pictures(data, fits):
             image = plot_difference(below, cut(data, difference, frame), LIMIT)
     bar = figure.colorbar(image, ax=grid, extend="both", shrink=0.5, aspect=30)
     bar.set_label("fitted - photographed, mean of the channels")
-    figure.suptitle("Balls as fitted, and below them fitted minus photographed")
+    entitle(figure, title)
+    figure.supxlabel(
+        "Balls as fitted, and below them fitted minus photographed", size=8
+    )
     return figure
 
 
@@ -186,7 +190,7 @@ def main(folder=RESULTS / "ball_gloss", models=tuple(MODELS), starts=STARTS):
     fits = {name: brdffit.fit(name, data, starts=starts) for name in models}
     shown, aside = references(data.take(np.asarray(data.mask).all(axis=1)))
     record.table(list(rows_of(data, fits, shown)))
-    record.figure(pictures(data, fits))
+    record.figure(pictures(data, fits, captions.ball_gloss(record.folder)))
     record.close(
         starts=starts,
         models=MODELS,

@@ -27,7 +27,7 @@ from brdffit.fit.texture import fit_texels
 from brdffit.parameters import parameters
 from brdffit.plots.maps import plot_colours, plot_map, window
 from brdffit.plots.spheres import plot_difference, plot_sphere
-from brdffit.plots.style import new_figure
+from brdffit.plots.style import entitle, new_figure
 from brdffit.render import shade_texels
 from experiments.ball_gloss import FOLDER
 from experiments.record import RESULTS, Record, styled
@@ -126,7 +126,7 @@ def rows_of(found):
 
 
 @styled
-def pictures(surface, found):
+def pictures(surface, found, title):
     """Maps above; below, one photograph predicted and missed."""
     shown_number = surface.photographs.index(SHOWN)
     here = {key: entry for n, key, *entry in found if n == shown_number}
@@ -166,7 +166,7 @@ def pictures(surface, found):
             f"predicted - photographed, {what}:\nrelative root mean square "
             f"{100 * np.sqrt(missed / whole):.1f} %"
         )
-    figure.suptitle("A ball, texel by texel, from eleven photographs of twelve")
+    entitle(figure, title)
     figure.supxlabel("below, grey: not compared, as no light falls there", size=8)
     return figure
 
@@ -184,14 +184,17 @@ def main(folder=RESULTS / "ball_texture", photographs=None, ways=WAYS):
         found = list(predictions(surface, data, numbers, ways))
     rows = list(rows_of(found))
     record.table(rows)
-    record.figure(pictures(surface, found))
     errors = {(row["model"], row["fitted"]): row["error_percent"] for row in rows}
-    record.close(
-        finding=f"With the gloss of the whole ball and a base for each texel, held-out "
+    finding = (
+        f"With the gloss of the whole ball and a base for each texel, held-out "
         f"photographs are predicted to {errors['ggx', MIXED]:.1f} %, against "
         f"{errors['ggx', ONE]:.1f} % with one material; eleven lights do not tell the "
         f"gloss of each texel, and what a fit makes up there is off by "
-        f"{errors['ggx', OWN]:.0f} %.",
+        f"{errors['ggx', OWN]:.0f} %."
+    )
+    record.figure(pictures(surface, found, finding))
+    record.close(
+        finding=finding,
         starts=STARTS,
         shown=SHOWN,
         texels=len(found[0][3][0]),

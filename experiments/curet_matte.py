@@ -12,8 +12,9 @@ import sys
 import numpy as np
 
 import brdffit
-from brdffit.plots.style import COLOURS, new_figure
+from brdffit.plots.style import COLOURS, entitle, new_figure
 from brdffit.readers import curet
+from experiments import captions
 from experiments.merl_standins import DATA
 from experiments.record import RESULTS, Record, styled
 
@@ -51,7 +52,7 @@ def gains(rows, models):
 
 
 @styled
-def chart(rows, models):
+def chart(rows, models, title):
     """Gain over Lambert, sample by sample."""
     figure = new_figure(7.0, 3.4)
     axes = figure.subplots()
@@ -64,7 +65,7 @@ def chart(rows, models):
     axes.set_xticks(range(len(names)), names)
     axes.set_ylim(0.8, None)
     axes.set(xlabel="matte sample of CUReT", ylabel="error of lambert / error of model")
-    figure.suptitle("What a rough model gains over lambert's law")
+    entitle(figure, title)
     figure.legend(loc="outside lower center", ncols=3)
     return figure
 
@@ -77,7 +78,7 @@ def main(folder=RESULTS / "curet_matte", samples=MATTE, models=MODELS):
     rows = [rows_of(sample, models) for sample in samples]
     record.table(rows)
     record.table(list(gains(rows, models)), "gains")
-    record.figure(chart(rows, models))
+    record.figure(chart(rows, models, captions.curet_matte(record.folder)))
     record.close()
 
 

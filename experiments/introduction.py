@@ -8,6 +8,7 @@ pictures of the README.
 import brdffit
 from brdffit import plots
 from brdffit.cli.demo import EXAMPLE
+from brdffit.plots.style import entitle
 from experiments.record import RESULTS, Record
 from experiments.tradeoff import rounded
 
@@ -45,17 +46,26 @@ def finding(rows):
     return "; ".join(said)
 
 
+def entitled(figure, rows):
+    """A figure of one example under what was found."""
+    entitle(figure, finding(rows))
+    return figure
+
+
 def main(folder=RESULTS / "introduction", paint=PAINT, ball=BALL):
     """Write the table and both figures."""
     record = Record(folder)
     data = brdffit.load(EXAMPLE)
     lobes = brdffit.compare(data, paint)
-    record.figure(plots.lobe_figure(data, lobes.results), "lobes")
     rows = rows_of("metallic paint", lobes)
+    record.figure(entitled(plots.lobe_figure(data, lobes.results), rows), "lobes")
     data = brdffit.load(SPHERE)
     spheres = brdffit.compare(data, ball)
-    record.figure(plots.spheres_figure(data, spheres.results), "spheres")
-    rows += rows_of("simulated sphere", spheres)
+    seen = rows_of("simulated sphere", spheres)
+    record.figure(
+        entitled(plots.spheres_figure(data, spheres.results), seen), "spheres"
+    )
+    rows += seen
     record.table(rows)
     record.close(finding=finding(rows) + ".")
 

@@ -26,10 +26,11 @@ import numpy as np
 from matplotlib.ticker import StrMethodFormatter
 
 import brdffit
-from brdffit.plots.style import COLOURS, new_figure
+from brdffit.plots.style import COLOURS, entitle, new_figure
 from brdffit.readers import merl
 from brdffit.subset import subset
 from brdffit.writers import merl as writer
+from experiments import captions
 from experiments.merl_standins import WEIGHTS, names, stand_in
 from experiments.record import RESULTS, Record, styled
 
@@ -141,7 +142,7 @@ def orders(rows):
 
 
 @styled
-def chart(rows):
+def chart(rows, title):
     """Error of every model on every material, over that of the best."""
     figure = new_figure(9.0, 4.2)
     panels = figure.subplots(1, len(RESIDUALS), squeeze=False)[0]
@@ -158,12 +159,13 @@ def chart(rows):
         axes.set(
             xscale="log", title=f"residual {residual}", ylim=(len(order) - 0.5, -0.5)
         )
-        axes.set_xlabel("error over that of the best model of the seven")
+        axes.set_xlabel("error over that of the best model of the seven, log scale")
         axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
         axes.xaxis.set_minor_formatter(StrMethodFormatter("{x:g}"))
     count = len({row["material"] for row in rows})
-    figure.suptitle(
-        f"{count} stand-ins for MERL materials (points) and their median (bar)"
+    entitle(figure, title)
+    figure.supxlabel(
+        f"{count} stand-ins for MERL materials (points) and their median (bar)", size=8
     )
     return figure
 
@@ -182,7 +184,7 @@ def main(folder=RESULTS / "merl_ranking", count=COUNT, models=MODELS, samples=SA
     record.table(rows, "fits")
     if {"cook_torrance", "ward_duer", "blinn_phong"} <= set(models):
         record.table(list(orders(rows)), "published_order")
-    record.figure(chart(rows))
+    record.figure(chart(rows, captions.merl_ranking(record.folder)))
     record.close(samples=samples, starts=STARTS, steepest_degrees=STEEPEST)
 
 

@@ -24,9 +24,10 @@ import numpy as np
 
 import brdffit
 from brdffit import MODELS
-from brdffit.plots.style import COLOURS, DASHES, DATA as BLACK, new_figure
+from brdffit.plots.style import COLOURS, DASHES, DATA as BLACK, entitle, new_figure
 from brdffit.render.shading import compiled_shade
 from brdffit.samples import as_samples
+from experiments import captions
 from experiments.merl_standins import DATA
 from experiments.record import RESULTS, Record, styled
 
@@ -99,7 +100,7 @@ def fitted(brdf):
 
 
 @styled
-def chart(data, fits):
+def chart(data, fits, title):
     """Reflectance in the plane of incidence at three angles of the light."""
     figure = new_figure(9.0, 3.6)
     panels = figure.subplots(1, 3, sharey=True)
@@ -128,6 +129,7 @@ def chart(data, fits):
     panels[0].set_ylabel(r"$f_r$ at 532 nm [1/sr]")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    entitle(figure, title)
     return figure
 
 
@@ -162,7 +164,7 @@ def main(folder=RESULTS / "ptfe", models=None, starts=STARTS):
     shown = dict.fromkeys([*ranked[:SHOWN], "lambert", "oren_nayar"])
     shown = {name: fits[name] for name in shown if name in fits}
     record.table(list(definitions(data, shown)), "definitions")
-    record.figure(chart(data, shown))
+    record.figure(chart(data, shown, captions.ptfe(record.folder)))
     record.close(
         forward_over_back_measured=forward_over_back(measured(data)),
         starts=starts,

@@ -122,7 +122,8 @@ def plot_lobe(
     else:
         top = np.max(measured, initial=0)
         axes.set_ylim(0, 1.2 * min(max(top, highest), HEADROOM * top) or 1)
-    axes.set(xlabel=plane.label, ylabel=r"$f_r$ [1/sr]")
+    scale = ", log scale" if logarithmic else ""
+    axes.set(xlabel=plane.label, ylabel=rf"$f_r$ [1/sr]{scale}")
     axes.set_xticks(np.arange(-90, 91, 30))
 
 

@@ -19,7 +19,8 @@ def test_figure_says_what_is_seen_in_words_and_units(goniometer, truth):
     above, below = figure.axes[:2], figure.axes[2:]
     assert ["20" in above[0].get_title(), "50" in above[1].get_title()] == [True, True]
     assert all("degrees" in axes.get_xlabel() for axes in below)
-    assert above[0].get_ylabel() == below[0].get_ylabel() == "$f_r$ [1/sr]"
+    assert above[0].get_ylabel() == "$f_r$ [1/sr]"
+    assert below[0].get_ylabel() == "$f_r$ [1/sr], log scale"
     (legend,) = figure.legends
     assert [t.get_text() for t in legend.get_texts()] == ["measured", "model 0"]
 
