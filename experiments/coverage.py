@@ -15,9 +15,11 @@ import numpy as np
 import brdffit
 from brdffit import Goniometer, Noise, simulate_measurement
 from brdffit.models import MODELS
-from experiments.record import RESULTS, Record
+from brdffit.plots.style import COLOURS, MUTED, entitle, new_figure
+from experiments.record import RESULTS, Record, styled
 
 REFITS = 1000
+ASKED = (93, 97)  # % of repetitions that an honest interval of 95 % holds
 SEED = 11
 NOISE = 0.01  # relative
 NORMAL_95 = 1.959964
@@ -71,15 +73,43 @@ def rows_of(name, count):
         }
 
 
+@styled
+def chart(rows, title):
+    """How often each interval holds the truth, and the band that is asked for."""
+    figure = new_figure(7.0, 0.9 + 0.19 * len(rows))
+    axes = figure.subplots()
+    names = [f"{row['model']} {row['parameter']}" for row in rows]
+    models = list(dict.fromkeys(row["model"] for row in rows))
+    axes.axvspan(*ASKED, color=MUTED, alpha=0.15, lw=0, label="asked for")
+    axes.axvline(95, color=MUTED, lw=0.8)
+    for model, colour, mark in zip(models, COLOURS, "os^D", strict=False):
+        own = [
+            (100 * row["coverage"], f"{model} {row['parameter']}")
+            for row in rows
+            if row["model"] == model
+        ]
+        axes.plot(*zip(*own, strict=True), mark, color=colour, ms=4, label=model)
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.5, -0.5)
+    axes.set_xlabel("repetitions whose 95 % interval holds the truth [%]")
+    figure.legend(loc="outside lower center", ncols=5)
+    entitle(figure, title)
+    return figure
+
+
 def main(folder=RESULTS / "coverage", count=REFITS):
-    """Write the table."""
+    """Write the table and the figure."""
     record = Record(folder, SEED)
     rows = [row for name in TRUTHS for row in rows_of(name, count)]
     record.table(rows)
     shares = [100 * row["coverage"] for row in rows]
+    finding = (
+        f"The 95 % intervals of {len(rows)} parameters hold the truth in "
+        f"{min(shares):.1f} to {max(shares):.1f} % of {count:,} repetitions."
+    )
+    record.figure(chart(rows, finding))
     record.close(
-        finding=f"The 95 % intervals of {len(rows)} parameters hold the truth in "
-        f"{min(shares):.1f} to {max(shares):.1f} % of {count:,} repetitions.",
+        finding=finding,
         refits=count,
         samples=len(GRID.directions()[0]),
         noise=NOISE,

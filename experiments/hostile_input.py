@@ -20,8 +20,12 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy as np
+
+from brdffit.plots.style import COLOURS, entitle, new_figure
+from experiments import captions
 from experiments.merl_standins import DATA
-from experiments.record import RESULTS, Record
+from experiments.record import RESULTS, Record, styled
 from tests.readers.guard import Guard
 from tests.readers.mutants import KINDS, damaged
 from tests.readers.specimens import SPECIMENS, files_of
@@ -29,6 +33,7 @@ from tests.readers.traps import TRAPS
 
 MOST = 60  # damages of one kind, other than cuts, to one file
 CUTS = 2000  # of one file
+OUTCOMES = ("read", "refused", "wrong")
 LARGE = 1_000_000  # bytes, beyond which every damage costs a copy
 MEASURED = (
     "ualoft/AnoBlackEC1onAlum.txt",
@@ -105,6 +110,27 @@ def copy(source, folder):
     return folder / source.name
 
 
+@styled
+def chart(rows, title):
+    """What became of the damaged files of each reader, and of all traps."""
+    counts = {}
+    for row in rows:
+        name = "traps" if row["damage"] == "trap" else row["file"]
+        counts.setdefault(name, []).append([row[what] for what in OUTCOMES])
+    figure = new_figure(7.0, 1.2 + 0.22 * len(counts))
+    axes = figure.subplots()
+    sums = np.array([np.sum(found, axis=0) for found in counts.values()])
+    shares = 100 * sums / sums.sum(axis=1, keepdims=True)
+    start = np.zeros(len(counts))
+    for what, share, colour in zip(OUTCOMES, shares.T, COLOURS, strict=False):
+        axes.barh(list(counts), share, left=start, color=colour, height=0.7, label=what)
+        start += share
+    axes.set(xlim=(0, 100), xlabel="files [%]", ylim=(len(counts) - 0.5, -0.5))
+    figure.legend(loc="outside lower center", ncols=3)
+    entitle(figure, title)
+    return figure
+
+
 def main(
     folder=RESULTS / "hostile_input",
     formats=tuple(SPECIMENS),
@@ -112,7 +138,7 @@ def main(
     cuts=CUTS,
     traps=TRAPS,
 ):
-    """Write the table.
+    """Write the table and the figure.
 
     Args:
         folder: Where the results go.
@@ -139,6 +165,7 @@ def main(
                 tally.add(guard.read(path), size_of(path), "specimen")
                 rows.append(tally.counted())
     record.table(rows)
+    record.figure(chart(rows, captions.hostile_input(record.folder)))
     record.close(
         damages_of_a_kind=most,
         cuts_of_a_file=cuts,

@@ -24,9 +24,10 @@ import brdffit
 from brdffit.fit.start import typical_box
 from brdffit.fit.transforms import Layout, to_natural, unpack
 from brdffit.models import MODELS
+from brdffit.plots.style import COLOURS, DATA, entitle, new_figure
 from brdffit.samples import Measurement
 from brdffit.scene import Goniometer
-from experiments.record import RESULTS, Record
+from experiments.record import RESULTS, Record, styled
 
 TRUTHS, FEW = 1000, 40
 SOME = ("phong", "cook_torrance", "oren_nayar", "ggx")
@@ -107,8 +108,28 @@ def row_of(name, count):
     }
 
 
+@styled
+def chart(rows, title):
+    """Share of truths recovered, and what a fit takes."""
+    figure = new_figure(8.0, 1.2 + 0.24 * len(rows))
+    left, right = figure.subplots(1, 2, sharey=True)
+    names = [row["model"] for row in rows]
+    shares = [100 * row["recovered"] for row in rows]
+    left.barh(names, shares, color=COLOURS[0], height=0.6)
+    left.axvline(99, color=DATA, lw=0.8, ls=":", label="99 %")
+    left.set(xlim=(0, 105), xlabel="truths recovered [%]")
+    left.set_ylim(len(names) - 0.5, -0.5)
+    right.plot([row["milliseconds"] for row in rows], names, "o", color=COLOURS[1])
+    right.set(xscale="log", xlabel="time of one fit [ms], log scale")
+    right.xaxis.set_major_formatter("{x:g}")
+    right.xaxis.set_minor_formatter("{x:g}")
+    figure.legend(loc="outside lower center")
+    entitle(figure, title)
+    return figure
+
+
 def main(folder=RESULTS / "recovery", names=(), count=TRUTHS):
-    """Write the table."""
+    """Write the table and the figure."""
     record = Record(folder, SEED)
     rows = []
     for name in names or MODELS:
@@ -116,9 +137,13 @@ def main(folder=RESULTS / "recovery", names=(), count=TRUTHS):
         print(rows[-1], flush=True)
     record.table(rows)
     share = sum(row["recovered"] for row in rows) / len(rows)
+    finding = (
+        f"{100 * share:.4g} % of {count * len(rows):,} truths of {len(rows)} models "
+        "are recovered."
+    )
+    record.figure(chart(rows, finding))
     record.close(
-        finding=f"{100 * share:.4g} % of {count * len(rows):,} truths of {len(rows)} "
-        "models are recovered.",
+        finding=finding,
         truths=count,
         samples=len(GRID.directions()[0]),
     )

@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 
 import brdffit
-from experiments.record import RESULTS, Record
+from brdffit.plots.style import COLOURS, MUTED, entitle, new_figure
+from experiments.record import RESULTS, Record, styled
 
 DATA = Path(os.environ.get("BRDFFIT_DATA", RESULTS.parents[1] / "shared" / "data"))
 COATINGS = ("AnoBlackEC1onAlum", "AnoBlackNiTEonINVAR")
@@ -46,8 +47,38 @@ def rows_of(coating, model):
         }
 
 
+@styled
+def chart(rows, title):
+    """Parameters from one choice of samples against those from the other."""
+    rows = [row for row in rows if row["fred"] > 0 and row["zemax"] > 0]
+    figure = new_figure(5.2, 4.6)
+    axes = figure.subplots()
+    coatings = list(dict.fromkeys(row["coating"] for row in rows))
+    for coating, colour, mark in zip(coatings, COLOURS, "o^", strict=False):
+        own = [row for row in rows if row["coating"] == coating]
+        axes.plot(
+            [row["fred"] for row in own],
+            [row["zemax"] for row in own],
+            mark,
+            color=colour,
+            ms=5,
+            alpha=0.8,
+            label=coating,
+        )
+    ends = [
+        f(row[end] for row in rows for end in ("fred", "zemax")) for f in (min, max)
+    ]
+    axes.plot(ends, ends, color=MUTED, lw=0.8, label="equal")
+    axes.set(xscale="log", yscale="log")
+    axes.set_xlabel("parameter fitted to the FRED file, log scale")
+    axes.set_ylabel("to the Zemax file, log scale")
+    figure.legend(loc="outside lower center", ncols=3)
+    entitle(figure, title)
+    return figure
+
+
 def main(folder=RESULTS / "resamplings"):
-    """Write the table."""
+    """Write the table and the figure."""
     if not (DATA / "ualoft").is_dir():
         sys.exit(f"Folder `{DATA / 'ualoft'}` must exist: set BRDFFIT_DATA.")
     record = Record(folder)
@@ -55,13 +86,14 @@ def main(folder=RESULTS / "resamplings"):
     record.table(rows)
     apart = [row["difference_in_errors"] for row in rows]
     apart = float(np.median([x for x in apart if np.isfinite(x)]))
-    record.close(
-        finding=f"Parameters differ between the two by {apart:.1f} of their standard "
-        "errors in the median: the choice of samples decides more than their noise."
-        if apart > 1
-        else f"Parameters differ between the two by {apart:.1f} of their standard "
-        "errors in the median."
+    finding = (
+        f"Parameters differ between the two by {apart:.1f} of their standard errors in "
+        "the median"
     )
+    if apart > 1:
+        finding += ": the choice of samples decides more than their noise"
+    record.figure(chart(rows, finding))
+    record.close(finding=finding + ".")
 
 
 if __name__ == "__main__":

@@ -101,9 +101,12 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def entitle(figure: Figure, words: str) -> None:
-    """Set the title of a figure, in as many lines as its width asks for."""
+    """Set the title of a figure, in as many lines as its width asks for.
+
+    A sentence loses its full stop, as titles have none.
+    """
     room = int(CHARACTERS * figure.get_figwidth())
-    plain = words.replace("$", r"\$")  # names of data are no formulas
+    plain = words.removesuffix(".").replace("$", r"\$")  # names of data are no formulas
     figure.suptitle("\n".join(textwrap.wrap(plain, room)))
 
 
