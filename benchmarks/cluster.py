@@ -197,7 +197,9 @@ def chart(rows):
     right.bar_label(bars, texts, size=8, padding=3)
     right.invert_yaxis()
     right.set(
-        xscale="log", xlim=(0.5 * min(times), 4 * max(times)), xlabel="ms a chunk"
+        xscale="log",
+        xlim=(0.5 * min(times), 4 * max(times)),
+        xlabel="ms a chunk, log scale",
     )
     right.set_title("parts of a chunk, on one core")
     return figure

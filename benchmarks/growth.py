@@ -76,6 +76,7 @@ def chart(rows):
     time.set(xlabel="samples", ylabel="time of one fit [s]")
     memory.set(xlabel="samples", ylabel="peak memory above that before the fit [MB]")
     starts.set(xlabel="starts", ylabel="time of one fit [ms]")
+    figure.supxlabel("All axes have log scales", size=8)
     return figure
 
 

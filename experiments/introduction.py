@@ -48,7 +48,7 @@ def finding(rows):
 
 def entitled(figure, rows):
     """A figure of one example under what was found."""
-    entitle(figure, finding(rows))
+    entitle(figure, f"{finding(rows)} ({figure.get_suptitle()})")
     return figure
 
 

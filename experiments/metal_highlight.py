@@ -93,7 +93,7 @@ def chart(groups, tables):
         )
         axes.set(yscale="log", ylim=(1e-5, 2), xlim=(-100, 60))
         axes.set_xlabel("angle from the mirror direction, away from the normal (deg)")
-    panels[0].set_ylabel("$f_r$ / its largest value, mean of RGB (1)")
+    panels[0].set_ylabel("$f_r$ / its largest value, mean of RGB, log scale")
     above.legend(
         *panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3
     )

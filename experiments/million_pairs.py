@@ -141,7 +141,7 @@ def chart(rows):
     axes.axvline(end, color="black", linewidth=0.8)
     axes.text(end / 3, 0, "float32 ends", rotation=90, ha="right", va="top", size=7)
     axes.set(xscale="log", ylim=(len(rows) - 0.4, -0.6))
-    axes.set_xlabel("largest magnitude among all pairs (values and gradients in 1/sr)")
+    axes.set_xlabel("largest magnitude (values and gradients in 1/sr), log scale")
     figure.legend(loc="outside lower center", ncols=3)
     bad = sum(n for row in rows for key, n in row.items() if key.endswith("_finite"))
     axes.set_title(

@@ -148,7 +148,7 @@ def curves():
     energy.axhline(1, color="black", linewidth=0.7)
     energy.text(2, 1.08, "as much as came", size=7)
     energy.set_xlabel(r"angle of incidence $\theta_i$ (degrees)")
-    energy.set_ylabel("directional albedo (1)")
+    energy.set_ylabel("directional albedo, log scale")
     energy.set_title(
         f"Energy, p = {SHOWN:g}: the original sends back more than\n"
         f"came beyond {beyond:.2f} degrees (p = 10: {early:.1f})"
@@ -157,7 +157,8 @@ def curves():
     worst = np.cos(np.radians(80)) / np.cos(np.radians(FIXED))
     trade.set(yscale="log", xlim=(0, 90), xticks=range(0, 91, 15))
     trade.set_xlabel(rf"other angle $\theta$ (degrees), one is {FIXED:g}")
-    trade.set_ylabel(rf"$f_r({FIXED:g}°\to\theta)\,/\,f_r(\theta\to{FIXED:g}°)$ (1)")
+    both = rf"$f_r({FIXED:g}°\to\theta)\,/\,f_r(\theta\to{FIXED:g}°)$"
+    trade.set_ylabel(f"{both}, log scale")
     trade.text(4, 0.6, "the other three: 1,\nas it must be", size=7, va="top")
     trade.set_title(
         "Reciprocity: the original changes by a factor\n"
