@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from brdffit.plots.style import COLOURS, MUTED, new_figure
 from experiments.record import styled
@@ -30,7 +31,7 @@ def dots(rows, keys: Sequence[str], what: str = "fit", columns: int = 2):
     panels = figure.subplots(lines, columns, squeeze=False).ravel()
     for axes, case in zip(panels, cases, strict=False):
         _panel(axes, [row for row in rows if _case(row, keys) == case])
-        axes.set_xlabel(f"processor time of one {what} [ms]")
+        axes.set_xlabel(f"processor time of one {what} [ms], log scale")
         axes.set_title(_title(keys, case))
     for axes in panels[len(cases) :]:
         axes.set_axis_off()
@@ -75,3 +76,6 @@ def _panel(axes, rows) -> None:
             size=7,
         )
     axes.set(xscale="log", ylim=(len(rows) - 0.5, -0.9))
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())

@@ -23,7 +23,7 @@ from benchmarks.cluster import CHUNK, MODEL, SEED, texture
 from benchmarks.record import RESULTS, facts
 from brdffit.batch.stack import ZarrStack, save_stack
 from brdffit.fit.texels import Texels
-from brdffit.plots.style import COLOURS, new_figure
+from brdffit.plots.style import COLOURS, entitle, new_figure
 from experiments.record import Record, styled
 
 SIZES = tuple(2**k for k in (18, 20, 22, 24))
@@ -124,7 +124,7 @@ def chart(rows, title):
     left.yaxis.set_major_locator(LogLocator(subs=(1, 3)))
     left.yaxis.set_major_formatter("{x:g}")
     left.yaxis.set_minor_formatter(NullFormatter())
-    figure.suptitle(title)
+    entitle(figure, title)
     return figure
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from benchmarks.record import RESULTS, facts
 from benchmarks.textures import OBSERVATIONS
-from brdffit.plots.style import COLOURS, MUTED, new_figure
+from brdffit.plots.style import COLOURS, MUTED, entitle, new_figure
 from experiments.record import Record, styled
 from experiments.tradeoff import rounded
 
@@ -45,7 +45,7 @@ def one(model: str, texels: int, few: int, threads: int, turns: int) -> list[dic
 
 
 def finding(rows):
-    """How much faster than the others all models are fitted on all cores."""
+    """How many texels of each model are fitted in a second on all cores."""
     most = max(row["threads"] for row in rows)
     own = {
         row["model"]: row["texels_per_s"]
@@ -85,7 +85,7 @@ def chart(rows):
         axes.set_yticks(range(len(own)), names)
         axes.set(xscale="log", xlabel="texels per second, log scale", title=model)
         axes.set(ylim=(len(own) - 0.5, -0.5), xlim=(10, 3e7))
-    figure.suptitle(finding(rows))
+    entitle(figure, finding(rows))
     return figure
 
 

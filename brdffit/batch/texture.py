@@ -81,7 +81,7 @@ class FitChunk:
             texels,
             residual=self.residual,
             fixed=self.fixed,
-            threads=2,  # by as many chunks as there are cores; see `fit_texels`
+            threads=2,  # so that a core never waits; chunks are shared among the cores
         )
         for name, values in _results(fits).items():
             arrays[name][..., chunk.start : chunk.stop] = values

@@ -47,7 +47,7 @@ def decide(view: View) -> Decision:
     w = jnp.array([0.0, 0.0, 1.0])
     cost = number * (operations(brdf, w, w) + 3 * view.channels)
     met = f"by {number} directions; they leave an error of {error:.2g}"
-    if error == 0:
+    if number == view.regions.pixels:
         met = f"by all of its {number} pixels, which leaves no error"
     if MARGIN * error > view.tolerance:
         met += ", too near the tolerance or above it: more pixels of it would be needed"

@@ -107,20 +107,15 @@ def _projected(problem: TexelProblem, basis, data: Array) -> tuple[Array, Array]
         jnp.broadcast_to(bound[places][..., None], shape)
         for bound in (problem.lower, problem.upper)
     )
+
+    def wide(entries: Sequence[Entry]) -> Array:
+        return side_by_side([jnp.broadcast_to(entry, shape[1:]) for entry in entries])
+
     error = constant - data
-    slope = side_by_side(
-        [jnp.broadcast_to(_sum(column, error), shape[1:]) for column in columns]
-    )
+    slope = wide([_sum(column, error) for column in columns])
     gram, every = _gram(columns), range(len(columns))
-    hessian = side_by_side(
-        [
-            side_by_side(
-                [jnp.broadcast_to(gram[max(i, j)][min(i, j)], shape[1:]) for j in every]
-            )
-            for i in every
-        ]
-    )
-    return minimise_in_boxes(hessian, slope, lower, upper)
+    hessian = [wide([gram[max(i, j)][min(i, j)] for j in every]) for i in every]
+    return minimise_in_boxes(side_by_side(hessian), slope, lower, upper)
 
 
 def _mixed(linear: Array, basis) -> Array:

@@ -160,7 +160,7 @@ def _refined(
             good & ~old.converged, now, (old.x, state.sums, state.cost)
         )
         step, predicted = propose(problem, found, x, damping)
-        small = jnp.abs(predicted) <= RTOL * cost + floor
+        small = predicted <= RTOL * cost + floor
         new = Progress(x, damping, growth, small & jnp.isfinite(cost), old.steps + 1)
         return _State(_where(old.converged, old, new), found, cost, step, predicted)
 

@@ -173,3 +173,9 @@ def test_a_picture_takes_few_points_at_once_under_many_directions(monkeypatch):
     monkeypatch.setattr(picture, "PAIRS", 16 * made.directions)
     np.testing.assert_allclose(render(GREY, scene, made), whole, rtol=1e-5)
     assert set(sizes) <= {(16, made.directions), (8, made.directions)}
+
+
+def test_where_no_surface_is_seen_nothing_is_said_of_all_pixels():
+    camera = Orthographic(5, target=[9, 0, 0])
+    made = plan(Scene(camera, (Sphere(),), (Environment(sky()),)), GREY)
+    assert "by 16 directions" in made.decisions["environment"].why
