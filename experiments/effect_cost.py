@@ -139,7 +139,7 @@ def sheet(images, rows):
     by = {row["variant"]: row for row in rows}
     columns = 3
     lines = -(-len(images) // columns)
-    figure = new_figure(2.5 * columns, 2.75 * lines + 0.5)
+    figure = new_figure(2.4 * columns, 2.65 * lines + 0.5)
     panels = figure.subplots(lines, columns, squeeze=False).ravel()
     for axes in panels:
         axes.set_axis_off()

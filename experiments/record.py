@@ -19,6 +19,7 @@ RESULTS = Path(__file__).parents[1] / "results"
 PACKAGES = ("brdffit", "jax", "jaxlib", "numpy", "matplotlib", "mpmath")
 DIGITS = 6
 DITHER = Image.Dither.FLOYDSTEINBERG
+RARE = Image.Quantize.MAXCOVERAGE  # keeps the ends of a colour scale, however rare
 
 
 class Record:
@@ -56,7 +57,7 @@ class Record:
             self.written.append(path)
             if path.suffix == ".png":
                 full = Image.open(path).convert("RGB")
-                few = full.quantize(palette=full.quantize(), dither=DITHER)
+                few = full.quantize(palette=full.quantize(method=RARE), dither=DITHER)
                 few.save(path, optimize=True)
 
     def picture(self, image, name):
